@@ -1,0 +1,223 @@
+"""Opens generated kernels: finds the folder, checks digests, and gives each kernel three views: numpy, batch, casadi.Function.
+
+The numpy view runs compiled C where there is a compiler, else the same kernel's Python text; the casadi view evaluates that
+text on symbols, so that its derivatives of any order are exact.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import json
+from collections.abc import Callable, Sequence
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cga_runtime.cache import digest
+from cga_runtime.compile import compile_library
+from cga_runtime.errors import NotFiniteError, StaleKernelError, UnknownNameError, WrongSizeError
+
+FORMAT = 1
+Array = NDArray[np.float64]
+
+# inputs of a kernel's body that come from joint positions q
+_OF_ANGLE: dict[str, Callable[[Any, Any], Any]] = {
+    "c": lambda m, q: m.cos(q),
+    "s": lambda m, q: m.sin(q),
+    "ch": lambda m, q: m.cos(0.5 * q),
+    "sh": lambda m, q: m.sin(0.5 * q),
+}
+_OF_DISPLACEMENT: dict[str, Callable[[Any], Any]] = {
+    "c": lambda q: 0 * q + 1,
+    "s": lambda q: q,
+    "ch": lambda q: 0 * q + 1,
+    "sh": lambda q: 0.5 * q,
+}
+
+
+def generated_folder() -> Path:
+    """The folder of kernels that came with the package: `_generated` in a wheel, `generated` in a checkout."""
+    here = Path(__file__).parent
+    for folder in (here / "_generated", here.parent / "generated"):
+        if (folder / "manifest.json").is_file():
+            return folder
+    raise StaleKernelError(f"no generated kernels beside {here}: reinstall cga-robotics, or run `./run generate` in a checkout")
+
+
+def finite(values: ArrayLike, what: str) -> Array:
+    """A float64 array; WrongSizeError if it is not numeric, NotFiniteError if it holds NaN or infinity."""
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise WrongSizeError(f"{what}: not an array of numbers ({error})") from None
+    if not np.isfinite(array).all():
+        raise NotFiniteError(f"{what} holds NaN or infinity: {np.array2string(array.ravel()[:8], precision=4)}")
+    return array
+
+
+class Library:
+    """A generated folder: its manifest, and its files once their digests are checked."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        listing = folder / "manifest.json"
+        try:
+            self.manifest: dict[str, Any] = json.loads(listing.read_text(encoding="utf-8"))
+            if self.manifest["format"] != FORMAT:
+                raise ValueError(f"its format is {self.manifest['format']}, this version reads {FORMAT}")
+        except OSError as error:
+            raise StaleKernelError(f"cannot read {listing}: {error.strerror}; run `cga generate` for this folder") from None
+        except (ValueError, KeyError, TypeError) as error:
+            raise StaleKernelError(f"{listing} is not a manifest of generated kernels ({error}); run {self._remedy()}") from None
+
+    def _remedy(self) -> str:
+        return "`./run generate`" if self.folder.name == "generated" else "`cga generate` again for this folder"
+
+    def read(self, path: str) -> str:
+        """A file's text. StaleKernelError if it is missing or does not match its digest."""
+        file = self.folder / path
+        try:
+            content = file.read_bytes()
+        except OSError as error:
+            raise StaleKernelError(f"cannot read {file}: {error.strerror}; run {self._remedy()}") from None
+        if digest(content) != self.manifest["files"].get(path):
+            raise StaleKernelError(f"{file} was edited by hand or is stale: it does not match manifest.json; run {self._remedy()}")
+        return content.decode()
+
+    @cache  # noqa: B019  a library lives as long as the process
+    def unit(self, path: str) -> Unit:
+        """What was generated together under that path."""
+        return Unit(self, path)
+
+
+@cache
+def library(folder: Path) -> Library:
+    """The library of a folder, read once."""
+    return Library(folder)
+
+
+class Unit:
+    """Kernels over the same joints (of one chain, or of a loop); compiled together at first use."""
+
+    def __init__(self, library: Library, path: str) -> None:
+        self.library, self.path = library, path
+        self.record: dict[str, Any] = library.manifest["units"][path]
+        self.joint_names: tuple[str, ...] = tuple(self.record["joint_names"])
+        self.joint_kinds: tuple[str, ...] = tuple(self.record["joint_kinds"])
+        self._kernels: dict[str, Kernel] = {}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the kernels."""
+        return tuple(self.record["kernels"])
+
+    def kernel(self, name: str) -> Kernel:
+        """The kernel of that name. UnknownNameError lists the others."""
+        if name not in self._kernels:
+            if name not in self.record["kernels"]:
+                raise UnknownNameError("kernel", name, self.names)
+            self._kernels[name] = Kernel(self, name)
+        return self._kernels[name]
+
+    @cached_property
+    def compiled(self) -> ctypes.CDLL | None:
+        """The compiled C, or None where Python text has to serve."""
+        return compile_library(self.path.rsplit("/", 1)[-1], self.library.read(f"{self.path}.c"))
+
+    @cached_property
+    def text(self) -> dict[str, Callable[..., tuple[Any, ...]]]:
+        """The functions of the Python text."""
+        file = f"{self.path}.py"
+        scope: dict[str, Any] = {}
+        exec(compile(self.library.read(file), str(self.library.folder / file), "exec"), scope)
+        return {name: scope[name] for name in self.names}
+
+
+class Kernel:
+    """One kernel: call it on arrays (leading batch dimensions broadcast), or take it as a casadi.Function."""
+
+    def __init__(self, unit: Unit, name: str) -> None:
+        self.unit, self.name = unit, name
+        self.record: dict[str, Any] = unit.record["kernels"][name]
+        self.body: tuple[str, ...] = tuple(self.record["inputs"])
+        self.shape: tuple[int, ...] = tuple(self.record["shape"])
+        n = len(unit.joint_names)
+        passed = {key: tuple(size) for key, size in self.record["inputs"].items() if key not in _OF_ANGLE}
+        self.inputs: dict[str, tuple[int, ...]] = {**({"q": (n,)} if len(passed) < len(self.body) else {}), **passed}
+
+    def __call__(self, *values: ArrayLike) -> Array:
+        """Evaluates at inputs of shape (..., size). Raises WrongSizeError or NotFiniteError; never returns a silent NaN for finite input."""
+        arrays, batch = self._checked(values)
+        out: Array = np.empty((*batch, *self.shape))
+        if self.unit.compiled is not None:
+            if batch:
+                self._batch(out.size // max(1, int(np.prod(self.shape))), *(a.ctypes.data for a in arrays), out.ctypes.data)
+            else:
+                self._scalar(*(a.ctypes.data for a in arrays), out.ctypes.data)
+            return out
+        flat = [np.moveaxis(a.reshape(*batch, -1), -1, 0) for a in arrays]
+        results = self.unit.text[self.name](*self._body_inputs(flat, np))
+        out.reshape(*batch, -1)[...] = np.stack(np.broadcast_arrays(*results, np.empty(batch))[:-1], axis=-1)
+        return out
+
+    def _checked(self, values: Sequence[ArrayLike]) -> tuple[list[Array], tuple[int, ...]]:
+        if len(values) != len(self.inputs):
+            raise WrongSizeError(f"{self.name} takes {', '.join(self.inputs)}; {len(values)} arrays given")
+        arrays = [finite(value, name) for name, value in zip(self.inputs, values, strict=True)]
+        for (name, shape), array in zip(self.inputs.items(), arrays, strict=True):
+            if array.shape[array.ndim - len(shape) :] != shape:
+                wanted = ", ".join(str(k) for k in shape)
+                raise WrongSizeError(f"{name} of {self.unit.path}: shape {array.shape} given, (..., {wanted}) needed")
+        batches = [a.shape[: a.ndim - len(shape)] for a, shape in zip(arrays, self.inputs.values(), strict=True)]
+        try:
+            batch = np.broadcast_shapes(*batches)
+        except ValueError:
+            raise WrongSizeError(f"{self.name}: batch dimensions {batches} do not broadcast") from None
+        return [
+            np.ascontiguousarray(np.broadcast_to(a, (*batch, *shape))) for a, shape in zip(arrays, self.inputs.values(), strict=True)
+        ], batch
+
+    @cached_property
+    def _scalar(self) -> Any:
+        return self._entry("", len(self.inputs) + 1)
+
+    @cached_property
+    def _batch(self) -> Any:
+        return self._entry("_batch", len(self.inputs) + 2)
+
+    def _entry(self, suffix: str, arguments: int) -> Any:
+        assert self.unit.compiled is not None
+        function = getattr(self.unit.compiled, self.record["symbol"] + suffix)
+        function.restype = None
+        function.argtypes = [ctypes.c_void_p] * arguments if not suffix else [ctypes.c_int64] + [ctypes.c_void_p] * (arguments - 1)
+        return function
+
+    def _body_inputs(self, flat: Sequence[Any], module: Any) -> list[Any]:
+        """Inputs of the body from flat public inputs: trigonometry of q by `module` (numpy or casadi), the rest as it is."""
+        named = dict(zip(self.inputs, flat, strict=True))
+        kinds = self.unit.joint_kinds
+
+        def joint(name: str, j: int) -> Any:
+            return _OF_DISPLACEMENT[name](named["q"][j]) if kinds[j] == "prismatic" else _OF_ANGLE[name](module, named["q"][j])
+
+        return [[joint(name, j) for j in range(len(kinds))] if name in _OF_ANGLE else named[name] for name in self.body]
+
+    def symbolic(self, *values: Any) -> Any:
+        """The kernel at casadi SX inputs (q a vector, others in their shape), as an SX matrix of its shape (3-D results: (6, n*n))."""
+        import casadi
+
+        flat = [casadi.SX(v).T.elements() if len(shape) > 1 else casadi.SX(v).elements() for v, shape in zip(values, self.inputs.values(), strict=True)]
+        results = casadi.vertcat(*[casadi.SX(r) for r in self.unit.text[self.name](*self._body_inputs(flat, casadi))])
+        rows = self.shape[0]
+        return casadi.reshape(results, results.numel() // rows, rows).T if len(self.shape) > 1 else results
+
+    @cached_property
+    def casadi(self) -> Any:
+        """The kernel as a casadi.Function of its public inputs (q, v, ...), built from symbols: derivatives of any order are exact."""
+        import casadi
+
+        symbols = [casadi.SX.sym(name, *shape) for name, shape in self.inputs.items()]
+        return casadi.Function(self.name, symbols, [self.symbolic(*symbols)], list(self.inputs), [self.name])

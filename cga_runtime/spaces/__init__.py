@@ -1,0 +1,1 @@
+"""Task spaces of several arms."""

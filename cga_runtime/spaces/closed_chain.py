@@ -1,0 +1,186 @@
+"""Two arms that hold one rigid object: the closed chain of paper C, its closure, and the doors to its analyses.
+
+Joints are numbered 1..n through both arms, the first (right) arm before the second; q is (..., n) in that order. Both chains have a
+common root frame. Twists and wrenches are about that frame's origin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cga_runtime.errors import GraspError, SchemeError, WrongSizeError
+from cga_runtime.kernels import Kernel, finite, generated_folder, library
+from cga_runtime.robot import Chain
+
+if TYPE_CHECKING:
+    from cga_runtime.analysis.mobility import Mobility
+    from cga_runtime.analysis.singularities import Nearest, SingularityFreeBox
+
+Array = NDArray[np.float64]
+
+LENGTH = 0.1
+"""Characteristic length (m) of determinants: moment rows are divided by it."""
+CLOSED = 1e-8
+"""Largest closure error (bivector coefficients of M_R X ~M_L) of a configuration that counts as closed."""
+
+
+class ClosedChain:
+    """Two chains that grasp one object. Raises GraspError if they share joints, or have fewer than six joints together."""
+
+    def __init__(self, right: Chain, left: Chain) -> None:
+        shared = set(right.joint_names) & set(left.joint_names) if right.robot is left.robot else set()
+        if shared:
+            raise GraspError(f"the two arms share joints ({', '.join(sorted(shared))}): a closed chain needs separate arms")
+        if right.n + left.n <= 6:
+            raise GraspError(f"{right.n} + {left.n} joints hold an object rigidly: a closed chain needs more than six")
+        self.right, self.left = right, left
+        self.unit = right.robot.loop_unit(right, left)
+        self.n = right.n + left.n
+        self.joint_names = (*right.joint_names, *left.joint_names)
+        self.lower, self.upper = np.concatenate([right.lower, left.lower]), np.concatenate([right.upper, left.upper])
+
+    def __repr__(self) -> str:
+        return f"<ClosedChain {self.right.frame} + {self.left.frame}: {self.n} joints>"
+
+    @property
+    def actuators(self) -> int:
+        """Joints that an actuation scheme actuates: the generic mobility n - 6."""
+        return self.n - 6
+
+    def kernel(self, name: str) -> Kernel:
+        """A kernel of the loop by name; UnknownNameError lists them."""
+        return self.unit.kernel(name)
+
+    def casadi(self, name: str) -> Any:
+        """A kernel of the loop as a casadi.Function with exact derivatives."""
+        return self.kernel(name).casadi
+
+    def random(self, rng: np.random.Generator, size: int | tuple[int, ...] | None = None) -> Array:
+        """Uniform joint positions inside the limits, shape (size..., n): free grasps (each pose defines its own grasp)."""
+        shape = () if size is None else (size,) if isinstance(size, int) else size
+        return np.concatenate([self.right.random(rng, shape), self.left.random(rng, shape)], axis=-1)
+
+    def check(self, q: ArrayLike) -> Array:
+        """q as a finite array (..., n). Raises WrongSizeError, NotFiniteError."""
+        array = finite(q, "q")
+        if array.ndim == 0 or array.shape[-1] != self.n:
+            raise WrongSizeError(f"q: shape {array.shape} given, (..., {self.n}) needed: {', '.join(self.joint_names)}")
+        return array
+
+    def screws(self, q: ArrayLike) -> Array:
+        """World screws of all joints as bivectors e12 e13 e23 e1i e2i e3i, (..., 6, n)."""
+        return self.kernel("screws")(q)
+
+    def twists(self, q: ArrayLike) -> Array:
+        """The same screws as (w, v) about the root frame's origin, (..., 6, n)."""
+        rows = self.screws(q)
+        return np.stack([rows[..., 2, :], -rows[..., 1, :], rows[..., 0, :], *(rows[..., i, :] for i in (3, 4, 5))], axis=-2)
+
+    def grasp(self, q: ArrayLike) -> Array:
+        """The grasp motor X = ~M_R M_L, (..., 8), that closes the loop at q (the left hand's pose in the right hand's frame)."""
+        q = self.check(q)
+        right, left = self.right.pose(q[..., : self.right.n]), self.left.pose(q[..., self.right.n :])
+        rotation = np.swapaxes(right[..., :3, :3], -1, -2)
+        shift = (rotation @ (left[..., :3, 3] - right[..., :3, 3])[..., None])[..., 0]
+        m_right, m_left = self.right.motor(q[..., : self.right.n]), self.left.motor(q[..., self.right.n :])
+        return pack_motor(_rotor_product(_reverse(m_right[..., :4]), m_left[..., :4]), shift)
+
+    def closure_error(self, q: ArrayLike, grasp: ArrayLike) -> Array:
+        """Bivector coefficients (..., 6) of M_R X ~M_L; zero exactly when the arms hold the grasp X."""
+        return self.kernel("closure_error")(q, grasp)
+
+    def require_closed(self, q: ArrayLike, grasp: ArrayLike) -> Array:
+        """q, or GraspError where the arms do not hold the grasp within CLOSED."""
+        error = float(np.abs(self.closure_error(q, grasp)).max(initial=0.0))
+        if error > CLOSED:
+            raise GraspError(f"the loop is not closed: closure error {error:.1e}, at most {CLOSED:.0e}; use loop.grasp(q) for the grasp of q")
+        return self.check(q)
+
+    def scheme(self, actuated: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Checked actuated and passive joints of a scheme, 0-based and ascending. Raises SchemeError."""
+        try:
+            joints = tuple(int(j) for j in actuated)
+        except (TypeError, ValueError):
+            raise SchemeError(f"scheme {actuated!r}: {self.actuators} joint numbers are needed") from None
+        if len(set(joints)) != self.actuators or len(joints) != self.actuators or not all(1 <= j <= self.n for j in joints):
+            raise SchemeError(f"scheme {tuple(actuated)}: {self.actuators} distinct joint numbers from 1 to {self.n} are needed")
+        chosen = tuple(sorted(j - 1 for j in joints))
+        return chosen, tuple(j for j in range(self.n) if j not in chosen)
+
+    def determinant(self, q: ArrayLike, actuated: Sequence[int]) -> Array:
+        """det[s_j, j passive] of the screws (w, v / LENGTH), columns ascending, shape (...): zero exactly at actuation singularities."""
+        _, passive = self.scheme(actuated)
+        value = _brackets().kernel("bracket")(self.screws(q)[..., :, list(passive)])[..., 0] / LENGTH**3
+        return np.asarray(value)
+
+    def determinant_gradient(self, q: ArrayLike, actuated: Sequence[int]) -> Array:
+        """Analytic gradient of `determinant`, (..., n): sum over passive j > k of the same arm of det(s_j replaced by [s_k, s_j])."""
+        _, passive = self.scheme(actuated)
+        screws = self.screws(q)
+        weights = np.zeros_like(screws)
+        weights[..., :, list(passive)] = _brackets().kernel("bracket_cofactors")(screws[..., :, list(passive)])
+        return self.kernel("screws_pullback")(q, weights) / LENGTH**3
+
+    def symbolic_determinant(self, q: Any, actuated: Sequence[int]) -> Any:
+        """`determinant` at a casadi SX q."""
+        _, passive = self.scheme(actuated)
+        return _brackets().kernel("bracket").symbolic(self.kernel("screws").symbolic(q)[:, list(passive)]) / LENGTH**3
+
+    # the analyses: their code lies in cga_runtime.analysis, which stands on this room
+
+    def mobility(self, q: ArrayLike) -> Mobility:
+        """Twist and wrench systems, mobility and motion type at one configuration; see analysis.mobility."""
+        from cga_runtime.analysis.mobility import mobility
+
+        return mobility(self, q)
+
+    def conditioning(self, q: ArrayLike, actuated: Sequence[int]) -> Array:
+        """mu in [0, 1], shape (...): zero exactly at an actuation singularity; 1/mu bounds |q'| / |q'_actuated|."""
+        from cga_runtime.analysis.schemes import conditioning
+
+        return conditioning(self, q, [actuated])[..., 0]
+
+    def schemes(self, samples: int = 3000, seed: int = 0) -> list[dict[str, Any]]:
+        """All actuation schemes: class, reason, orbit, exact witness, statistics of mu; see analysis.schemes."""
+        from cga_runtime.analysis.schemes import atlas
+
+        return atlas(self, samples, seed)
+
+    def nearest_singularity(self, q: ArrayLike, kind: str = "limb", actuated: Sequence[int] | None = None, **options: Any) -> Nearest:
+        """The nearest configuration where a factor of that kind ("limb", "constraint", "actuation") vanishes; see analysis.singularities."""
+        from cga_runtime.analysis.singularities import nearest_singularity
+
+        return nearest_singularity(self, q, kind, actuated, **options)
+
+    def singularity_free_box(self, q: ArrayLike, actuated: Sequence[int], **options: Any) -> SingularityFreeBox:
+        """Half-width of the largest box around q in which no zero of the determinant was found (not certified); see analysis.singularities."""
+        from cga_runtime.analysis.singularities import singularity_free_box
+
+        return singularity_free_box(self, q, actuated, **options)
+
+
+def _brackets() -> Any:
+    return library(generated_folder()).unit("algebra/screws")
+
+
+def pack_motor(rotor: Array, t: Array) -> Array:
+    """Motor T(t) R, (..., 8), from rotor components 1 e12 e13 e23 (..., 4) and translation (..., 3)."""
+    a, b12, b13, b23 = np.moveaxis(rotor, -1, 0)
+    x, y, z = np.moveaxis(t, -1, 0)
+    ideal = [a * x - b12 * y - b13 * z, a * y + b12 * x - b23 * z, a * z + b13 * x + b23 * y, b12 * z - b13 * y + b23 * x]
+    return np.stack([a, b12, b13, b23, *(-0.5 * part for part in ideal)], axis=-1)
+
+
+def _reverse(rotor: Array) -> Array:
+    return rotor * np.array([1.0, -1.0, -1.0, -1.0])
+
+
+def _rotor_product(left: Array, right: Array) -> Array:
+    """Geometric product of two rotors, components 1 e12 e13 e23."""
+    a, b, c, d = np.moveaxis(left, -1, 0)
+    e, f, g, h = np.moveaxis(right, -1, 0)
+    return np.stack([a * e - b * f - c * g - d * h, a * f + b * e - c * h + d * g, a * g + c * e + b * h - d * f, a * h + d * e - b * g + c * f], axis=-1)

@@ -1,0 +1,152 @@
+"""The one door to the generator: makes kernels that are not checked in, on demand, and keeps their text in the cache.
+
+Everything here works on plain data (a robot's description as JSON), so that the rest of the runtime does not know the generator.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from cga_runtime.cache import cache_folder, digest, locked
+from cga_runtime.errors import CgaError, MissingExtraError, RobotFileError, StaleKernelError
+from cga_runtime.kernels import Library, Unit, library
+
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class ChainOrder:
+    """What defines a chain: the robot's description (JSON text), the end frame, and the options of `Robot.chain`."""
+
+    description: str
+    frame: str
+    root: str | None
+    placement: tuple[tuple[float, ...], ...] | None
+    offset: tuple[float, float, float]
+
+
+def read_robot(file: Path) -> str:
+    """Description (JSON text) of a URDF. Raises RobotFileError naming what is wrong, MissingExtraError without pinocchio."""
+    from cga_codegen.robots.from_urdf import load_urdf
+    from cga_codegen.robots.model import ModelError
+
+    try:
+        model = load_urdf(file)
+    except ModelError as error:
+        raise RobotFileError(str(error)) from error
+    except ImportError as error:
+        raise MissingExtraError("reading a URDF", "pinocchio (pip name: pin)", "urdf") from error
+    return json.dumps(model.to_json(), sort_keys=True)
+
+
+def chain_unit(order: ChainOrder) -> Unit:
+    """Kernels of any chain."""
+    return _unit({"chain": asdict(order)}, lambda: _chain(order))
+
+
+def loop_unit(right: ChainOrder, left: ChainOrder) -> Unit:
+    """Kernels of any two chains as a closed loop."""
+    return _unit({"right": asdict(right), "left": asdict(left)}, lambda: _loop(right, left))
+
+
+def generate_folder(file: Path, out: Path, frames: Sequence[str], pairs: Sequence[tuple[str, str]], say: Say) -> dict[str, Any]:
+    """Behind `cga generate FILE -o DIR`: kernels of a robot's chains (default: to every tip) and loops. Returns the robot's record."""
+    from cga_codegen.emit.lower import LoweringError
+    from cga_codegen.emit.manifest import GeneratedFolderError
+    from cga_codegen.generate import generate
+    from cga_codegen.robots.from_urdf import load_urdf
+    from cga_codegen.robots.model import ModelError
+
+    try:
+        model = load_urdf(file)
+        chains = list(dict.fromkeys([*(frames or model.tips()), *(frame for pair in pairs for frame in pair)]))
+        generate([(model, chains, pairs)], out, say)
+    except (ModelError, LoweringError, GeneratedFolderError) as error:
+        raise RobotFileError(str(error)) from error
+    except ImportError as error:
+        raise MissingExtraError("reading a URDF", "pinocchio (pip name: pin)", "urdf") from error
+    record: dict[str, Any] = Library(out).manifest["robots"][model.name]
+    return record
+
+
+def generate_checked_in(out: Path, say: Say) -> None:
+    """Behind `cga generate` without a file: the folder that the package carries, made anew."""
+    from cga_codegen.emit.manifest import GeneratedFolderError
+    from cga_codegen.generate import checked_in_robots, generate
+
+    try:
+        generate(checked_in_robots(), out, say)
+    except GeneratedFolderError as error:
+        raise CgaError(str(error)) from error
+
+
+def prove(say: Say) -> None:
+    """The exact proofs of the algebra's laws, each named as it is done."""
+    from cga_codegen.cli import prove as run
+
+    run(say)
+
+
+def _chain(order: ChainOrder) -> Any:
+    """The generator's chain of an order."""
+    from cga_codegen.robots.model import ModelError, Placement, RobotModel
+
+    model = RobotModel.from_json(json.loads(order.description))
+    placement = None if order.placement is None else order.placement
+    try:
+        at = None if placement is None else Placement.from_matrix(placement)
+        return model.chain(order.frame, order.root, at, order.offset)
+    except ModelError as error:
+        raise RobotFileError(str(error)) from error
+
+
+def _loop(right: ChainOrder, left: ChainOrder) -> Any:
+    from cga_codegen.generate import loop_name
+    from cga_codegen.kernels.closed_chain import Loop
+
+    return Loop(loop_name(right.frame, left.frame), _chain(right), _chain(left))
+
+
+def _unit(key: dict[str, Any], subject: Callable[[], Any]) -> Unit:
+    """The cached unit of a key, generated now if it is not there or damaged."""
+    from cga_codegen import __version__
+    from cga_codegen.catalogue import CHAIN_KERNELS, LOOP_KERNELS, chain_unit, loop_unit
+    from cga_codegen.emit.manifest import manifest_text, write_folder
+
+    kernels = [f"{k.name} {k.function.__module__}" for k in (*CHAIN_KERNELS, *LOOP_KERNELS)]
+    name = digest(json.dumps([__version__, _generator_digest(), kernels, key], sort_keys=True).encode())[:32]
+    root = cache_folder() / "generated"
+    root.mkdir(mode=0o700, exist_ok=True)
+    folder = root / name
+    with locked(folder):
+        if not _complete(folder):
+            made = subject()
+            texts, record = loop_unit(made) if "right" in key else chain_unit(made)
+            if folder.exists():  # damaged: the listing below replaces every file
+                (folder / "manifest.json").write_text("{}", encoding="utf-8")
+            write_folder(folder, texts, manifest_text(__version__, texts, [record], {}))
+    opened = library(folder)
+    return opened.unit(next(iter(opened.manifest["units"])))
+
+
+def _generator_digest() -> str:
+    """Digest of the generator's own sources: kernels kept by another version of it are not used."""
+    import cga_codegen
+
+    folder = Path(cga_codegen.__file__).parent
+    return digest(b"".join(file.read_bytes() for file in sorted(folder.rglob("*.py"))))
+
+
+def _complete(folder: Path) -> bool:
+    """Whether a generated folder is there and all its files match."""
+    try:
+        found = Library(folder)
+        for path in found.manifest["files"]:
+            found.read(path)
+    except StaleKernelError:
+        return False
+    return True

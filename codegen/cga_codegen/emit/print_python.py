@@ -1,0 +1,46 @@
+"""Prints programs as straight-line Python that runs alike on floats, numpy arrays and casadi.SX.
+
+    def point(c, s):
+        t0 = c[0]*c[1]
+        return (t0, ...)
+
+Inputs are indexed sequences of scalars (or of arrays: one array for each element makes a batch); the result is a flat tuple, row-major.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from cga_codegen.emit.lower import Node, Program, Signed
+
+_PATTERNS = {"add": "{}+{}", "sub": "{}-{}", "mul": "{}*{}", "div": "{}/{}", "sqrt": "{}**0.5"}
+
+
+def print_function(program: Program, docstring: str) -> str:
+    """The text of one function, with its operation count."""
+    counts = program.counts()
+    head = f"def {program.name}({', '.join(port.name for port in program.inputs)}):\n"
+    lines = [head, f'    """{docstring}\n\n    Result: shape {program.output.shape}. ']
+    lines.append(f'{counts.multiplications} mul, {counts.additions} add, {counts.divisions} div, {counts.roots} sqrt."""\n')
+    for k, node in enumerate(program.nodes):
+        if node.op not in ("input", "constant"):
+            lines.append(f"    t{program.number[k]} = {_PATTERNS[node.op].format(*(_operand(program, a) for a in node.args))}\n")
+    results = ", ".join(_result(program, r) for r in program.results)
+    lines.append(f"    return ({results},)\n")
+    return "".join(lines)
+
+
+def print_module(banner: str, functions: Iterable[str]) -> str:
+    """A module of functions under a banner docstring."""
+    return f'"""{banner}"""\n\n\n' + "\n\n".join(functions)
+
+
+def _operand(program: Program, index: int) -> str:
+    node: Node = program.nodes[index]
+    if node.op == "input":
+        return f"{program.inputs[node.args[0]].name}[{node.args[1]}]"
+    return repr(node.value) if node.op == "constant" else f"t{program.number[index]}"
+
+
+def _result(program: Program, result: Signed) -> str:
+    return ("-" if result.negative else "") + _operand(program, result.node)

@@ -1,0 +1,76 @@
+"""Assembles generated folders: the algebra's tables, the brackets of screws, and the kernels of robots, with their manifest."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from cga_codegen import __version__
+from cga_codegen.catalogue import chain_unit, identifier, loop_unit, screws_unit
+from cga_codegen.emit.manifest import UnitRecord, manifest_text, write_folder
+from cga_codegen.emit.print_products import product_files
+from cga_codegen.kernels.closed_chain import Loop
+from cga_codegen.robots.bundled import bundled_robots
+from cga_codegen.robots.from_urdf import load_urdf
+from cga_codegen.robots.model import RobotModel
+
+# robots whose kernels are checked in: name -> (chains, pairs of chains)
+CHECKED_IN: dict[str, tuple[tuple[str, ...], tuple[tuple[str, str], ...]]] = {
+    "nao": (("RHand", "LHand"), (("RHand", "LHand"),)),
+    "nao_v32": (("RHand", "LHand"), (("RHand", "LHand"),)),
+}
+
+Progress = Callable[[str], None]
+
+
+def loop_name(right: str, left: str) -> str:
+    """Name of the closed chain of two end frames."""
+    return f"{right}_with_{left}"
+
+
+def robot_record(model: RobotModel, chains: Sequence[str], loops: Sequence[tuple[str, str]]) -> dict[str, Any]:
+    """What the manifest says of a robot: its description and where its chains' kernels are."""
+    folder = f"robots/{identifier(model.name)}"
+    return {
+        "description": f"{folder}/robot.json",
+        "chains": {chain: f"{folder}/{identifier(chain)}" for chain in chains},
+        "loops": {loop_name(*pair): f"{folder}/{identifier(loop_name(*pair))}" for pair in loops},
+    }
+
+
+def generate_robot(
+    model: RobotModel, chains: Sequence[str], loops: Sequence[tuple[str, str]], say: Progress
+) -> tuple[dict[str, str], list[UnitRecord], dict[str, Any]]:
+    """Texts, records and manifest entry of one robot. Raises ModelError for a frame that does not exist."""
+    record = robot_record(model, chains, loops)
+    files = {record["description"]: json.dumps(model.to_json(), indent=1, sort_keys=True) + "\n"}
+    units: list[UnitRecord] = []
+    subjects = [lambda frame=frame: chain_unit(model.chain(frame)) for frame in chains]
+    subjects += [lambda pair=pair: loop_unit(Loop(loop_name(*pair), model.chain(pair[0]), model.chain(pair[1]))) for pair in loops]
+    for make in subjects:
+        texts, unit = make()
+        say(f"{unit.title}: {len(unit.kernels)} kernels, {sum(k.counts.total for k in unit.kernels)} operations")
+        files.update(texts)
+        units.append(unit)
+    return files, units, record
+
+
+def generate(robots: Sequence[tuple[RobotModel, Sequence[str], Sequence[tuple[str, str]]]], folder: Path, say: Progress) -> None:
+    """Writes a complete generated folder: the algebra, and the given robots with the named chains and pairs of chains."""
+    files = dict(product_files())
+    screws_text, screws_record = screws_unit()
+    files.update(screws_text)
+    units, records = [screws_record], {}
+    for model, chains, loops in robots:
+        texts, made, record = generate_robot(model, chains, loops, say)
+        files.update(texts)
+        units += made
+        records[model.name] = record
+    write_folder(folder, files, manifest_text(__version__, files, units, records))
+
+
+def checked_in_robots() -> list[tuple[RobotModel, Sequence[str], Sequence[tuple[str, str]]]]:
+    """The robots of CHECKED_IN, read from their bundled files."""
+    return [(load_urdf(bundled_robots()[name], name=name), chains, loops) for name, (chains, loops) in CHECKED_IN.items()]

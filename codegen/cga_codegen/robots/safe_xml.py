@@ -1,0 +1,74 @@
+"""Opens the XML of a robot description without trusting it: size, kind of file, encoding and entities are checked before it is parsed."""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+from cga_codegen.robots.errors import BrokenFileError, UnreadableFileError, UnsafeFileError
+
+MAX_BYTES = 20_000_000
+ENCODINGS = ("utf-8", "utf-16", "us-ascii", "ascii", "iso-8859-1", "latin-1")
+
+
+def read_xml(path_or_text: str | os.PathLike[str], what: str) -> tuple[ET.Element, str]:
+    """The root element, and the name of the file for messages (without its folder, so that what is generated does not depend on it).
+
+    path_or_text: a path, or the text itself (a string whose first character that is not blank is "<"). what: "URDF", for messages.
+    Raises UnreadableFileError, UnsafeFileError or BrokenFileError.
+    """
+    if isinstance(path_or_text, str) and path_or_text.lstrip("\ufeff \t\r\n").startswith("<"):
+        text, source = path_or_text, f"{what} text"
+        if len(text) > MAX_BYTES:
+            raise UnsafeFileError(f"{source}: {len(text)} characters given, at most {MAX_BYTES} are read")
+    else:
+        text, source = _file_text(path_or_text, what)
+    text = text.lstrip("\ufeff \t\r\n")  # blanks before <?xml are an error of form only
+    _refuse_document_type(text, source, what)
+    try:
+        return ET.fromstring(text), source
+    except (ET.ParseError, UnicodeError) as error:
+        raise BrokenFileError(f"{source}: not well-formed XML ({error}); a {what} is needed") from None
+
+
+def _file_text(given: str | os.PathLike[str], what: str) -> tuple[str, str]:
+    needed = f"a path to a {what} file is needed"
+    if not os.fspath(given):
+        raise UnreadableFileError(f"an empty path was given; {needed}")
+    path = Path(given)
+    try:
+        status = path.stat()
+        if stat.S_ISREG(status.st_mode) and status.st_size <= MAX_BYTES:
+            data = path.read_bytes()
+    except (OSError, ValueError) as error:  # ValueError: a null byte in the path
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise UnreadableFileError(f"{os.fspath(path)[:200]!r} cannot be read ({reason}); {needed}") from None
+    if stat.S_ISDIR(status.st_mode):
+        raise UnreadableFileError(f"{path} is a folder; {needed}")
+    if not stat.S_ISREG(status.st_mode):  # a pipe or a device would never end
+        raise UnreadableFileError(f"{path} is not a regular file; {needed}")
+    if status.st_size > MAX_BYTES:
+        raise UnsafeFileError(f"{path}: {status.st_size} bytes given, at most {MAX_BYTES} are read")
+    declared = re.match(rb"""<\?xml[^>]*encoding\s*=\s*["']([\w.-]+)""", data)
+    encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else declared[1].decode().lower() if declared else "utf-8"
+    if encoding not in ENCODINGS:
+        raise UnreadableFileError(f"{path}: encoding {encoding!r} given; utf-8, utf-16, us-ascii or iso-8859-1 is needed")
+    try:
+        return data.decode(encoding), path.name
+    except UnicodeDecodeError as error:
+        raise UnreadableFileError(f"{path}: not text in {encoding} (byte {error.start}); {needed}") from None
+
+
+_BEFORE_ROOT = re.compile(r"\s+|<\?.*?\?>|<!--.*?-->", re.DOTALL)
+
+
+def _refuse_document_type(text: str, source: str, what: str) -> None:
+    """A document type may stand only before the root element: step over blanks, comments and instructions, then look."""
+    position = 0
+    while match := _BEFORE_ROOT.match(text, position):
+        position = match.end()
+    if text.startswith("<!", position):
+        raise UnsafeFileError(f"{source}: a document type declaration (DOCTYPE, entities) is given; remove it, a {what} needs none")
