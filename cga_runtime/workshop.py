@@ -53,6 +53,11 @@ def loop_unit(right: ChainOrder, left: ChainOrder) -> Unit:
     return _unit({"right": asdict(right), "left": asdict(left)}, lambda: _loop(right, left))
 
 
+def chain_geometry(order: ChainOrder) -> list[tuple[bool, Any, Any, Any]]:
+    """For each joint of a chain: whether it slides, rotation rows and translation of its placement, and its axis, as plain floats."""
+    return [(j.kind == "prismatic", j.placement.rotation, j.placement.translation, j.axis) for j in _chain(order).joints]
+
+
 def generate_folder(file: Path, out: Path, frames: Sequence[str], pairs: Sequence[tuple[str, str]], say: Say) -> dict[str, Any]:
     """Behind `cga generate FILE -o DIR`: kernels of a robot's chains (default: to every tip) and loops. Returns the robot's record."""
     from cga_codegen.emit.lower import LoweringError

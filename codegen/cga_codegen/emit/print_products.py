@@ -183,8 +183,8 @@ def _python_function(f: Straight) -> str:
     unpack = [f"    {', '.join(_numbered(n, size))} = {', '.join(f'{n}[{k}]' for k in range(size))}\n" for n, size in f.inputs if size > 1]
     unpack += [f"    {n}0 = {n}[0]\n" for n, size in f.inputs if size == 1]
     body = "".join(f"    {target} = {expression}\n" for target, expression in f.lines)
-    outputs = ", ".join(f.outputs)
-    return f'def {f.name}({", ".join(names)}):\n    """{f.summary}.\n\n    {f.cost}.\n    """\n{"".join(unpack)}{body}    return {outputs}\n'
+    head = f'def {f.name}({", ".join(names)}):\n    """{f.summary}.\n\n    {f.cost}.\n    """\n'
+    return head + "".join(unpack) + body + f"    return {', '.join(f.outputs)}\n"
 
 
 def _c_function(f: Straight) -> str:
@@ -226,8 +226,8 @@ def _json_product(p: Product) -> str:
 
 def _json_text() -> str:
     meaning = (
-        "A term [i, j, k, c] adds c a_i b_j to component k; the second step of a sandwich takes the first result and a, signs of ~a included.",
-        "'geometric' lists [mask a, mask b, mask, c] of the geometric product of any two blades; the other products keep some grades of it.",
+        "A term [i, j, k, c] adds c a_i b_j to component k; a sandwich's second step takes that result and a, signs of ~a included.",
+        "'geometric' lists [mask a, mask b, mask, c] of the geometric product of all blade pairs; other products keep some of its grades.",
     )
     head = {"banner": _BANNER + meaning, "basis": CGA.basis, "gram": CGA.gram}
     rows = [f'"{key}":{_compact(value)}' for key, value in head.items()]

@@ -160,11 +160,9 @@ def nao_mdh(version: str = "V50") -> RobotModel:
     names = {0: "", **{row["j"]: row["joint"] for row in table}}
     rows = []
     for row in table:
-        geometry = {key: value(row[key]) for key in ("gamma", "b", "d", "alpha", "theta", "r")}
+        geometry: dict[str, Any] = {key: value(row[key]) for key in ("gamma", "b", "d", "alpha", "theta", "r")}
         lower, upper, velocity, effort = limits[row["joint"]]
-        rows.append(
-            ModifiedRow(row["joint"], names[row["a"]], lower=lower, upper=upper, velocity=velocity, effort=effort, **geometry)
-        )
+        rows.append(ModifiedRow(row["joint"], names[row["a"]], lower=lower, upper=upper, velocity=velocity, effort=effort, **geometry))
     return _with_urdf_frames(load_mdh(rows, f"nao_mdh_{version}", source="nao_mdh.json"), constants)
 
 

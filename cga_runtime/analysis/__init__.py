@@ -1,0 +1,1 @@
+"""Mobility, singularities and actuation schemes of closed chains."""
