@@ -126,7 +126,8 @@ def _build(compiler: Compiler, source: str, library: Path) -> None:
             raise CompilerError(f"`{shlex.join(command)}` did not start: {error.strerror}") from error
         if done.returncode != 0:
             tail = (done.stderr or done.stdout).strip()[-800:]
-            raise CompilerError(f"`{shlex.join(command)}` failed ({done.returncode}); set CC, or CGA_NO_COMPILER=1 for Python text:\n{tail}")
+            advice = "set CC to another compiler, or CGA_NO_COMPILER=1 to run the Python text"
+            raise CompilerError(f"`{shlex.join(command)}` failed ({done.returncode}); {advice}:\n{tail}")
         binary = output.read_bytes()
         # the library first: a run killed in between leaves it unsealed, and the next run makes it again
         write_atomic(library, binary)

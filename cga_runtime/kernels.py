@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import math
 from collections.abc import Callable, Sequence
 from functools import cache, cached_property
 from pathlib import Path
@@ -47,12 +48,17 @@ def generated_folder() -> Path:
     raise StaleKernelError(f"no generated kernels beside {here}: reinstall cga-robotics, or run `./run generate` in a checkout")
 
 
-def finite(values: ArrayLike, what: str) -> Array:
-    """A float64 array; WrongSizeError if it is not numeric, NotFiniteError if it holds NaN or infinity."""
+def numeric(values: ArrayLike, what: str) -> Array:
+    """A float64 array; WrongSizeError if it is not numeric."""
     try:
-        array = np.asarray(values, dtype=np.float64)
+        return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise WrongSizeError(f"{what}: not an array of numbers ({error})") from None
+
+
+def finite(values: ArrayLike, what: str) -> Array:
+    """A float64 array; WrongSizeError if it is not numeric, NotFiniteError if it holds NaN or infinity."""
+    array = numeric(values, what)
     if not np.isfinite(array).all():
         raise NotFiniteError(f"{what} holds NaN or infinity: {np.array2string(array.ravel()[:8], precision=4)}")
     return array
@@ -142,31 +148,43 @@ class Kernel:
     def __init__(self, unit: Unit, name: str) -> None:
         self.unit, self.name = unit, name
         self.record: dict[str, Any] = unit.record["kernels"][name]
-        self.body: tuple[str, ...] = tuple(self.record["inputs"])
+        self.body: tuple[str, ...] = tuple(key for key, _ in self.record["inputs"])
         self.shape: tuple[int, ...] = tuple(self.record["shape"])
         n = len(unit.joint_names)
-        passed = {key: tuple(size) for key, size in self.record["inputs"].items() if key not in _OF_ANGLE}
+        passed = {key: tuple(size) for key, size in self.record["inputs"] if key not in _OF_ANGLE}
         self.inputs: dict[str, tuple[int, ...]] = {**({"q": (n,)} if len(passed) < len(self.body) else {}), **passed}
 
     def __call__(self, *values: ArrayLike) -> Array:
-        """Evaluates at inputs of shape (..., size). Raises WrongSizeError or NotFiniteError; never returns a silent NaN for finite input."""
-        arrays, batch = self._checked(values)
+        """Evaluates at inputs of shape (..., size). Raises WrongSizeError or NotFiniteError."""
+        q = values[0] if len(values) == 1 else None
+        if type(q) is np.ndarray and q.shape == self._single and q.dtype == np.float64 and q.flags.c_contiguous:
+            return self._evaluate([q], ())
+        return self._evaluate(*self._checked(values))
+
+    def _evaluate(self, arrays: Sequence[Array], batch: tuple[int, ...]) -> Array:
+        """At contiguous float64 arrays of the right shapes, all with the same batch dimensions."""
         out: Array = np.empty((*batch, *self.shape))
-        if self.unit.compiled is not None:
-            if batch:
-                self._batch(out.size // max(1, int(np.prod(self.shape))), *(a.ctypes.data for a in arrays), out.ctypes.data)
-            else:
-                self._scalar(*(a.ctypes.data for a in arrays), out.ctypes.data)
+        if self._entries is None:
+            for name, array in zip(self.inputs, arrays, strict=True):
+                finite(array, name)
+            flat = [np.moveaxis(a.reshape(*batch, -1), -1, 0) for a in arrays]
+            results = self.unit.text[self.name](*self._body_inputs(flat, np))
+            out.reshape(*batch, -1)[...] = np.stack(np.broadcast_arrays(*results, np.empty(batch))[:-1], axis=-1)
             return out
-        flat = [np.moveaxis(a.reshape(*batch, -1), -1, 0) for a in arrays]
-        results = self.unit.text[self.name](*self._body_inputs(flat, np))
-        out.reshape(*batch, -1)[...] = np.stack(np.broadcast_arrays(*results, np.empty(batch))[:-1], axis=-1)
+        single, many = self._entries
+        # the interface dictionary is the cheapest way to an address that numpy offers
+        addresses = [a.__array_interface__["data"][0] for a in arrays]
+        address = out.__array_interface__["data"][0]
+        bad = many(math.prod(batch), *addresses, address) if batch else single(*addresses, address)
+        if bad:
+            for name, array in zip(self.inputs, arrays, strict=True):
+                finite(array, name)
         return out
 
     def _checked(self, values: Sequence[ArrayLike]) -> tuple[list[Array], tuple[int, ...]]:
         if len(values) != len(self.inputs):
             raise WrongSizeError(f"{self.name} takes {', '.join(self.inputs)}; {len(values)} arrays given")
-        arrays = [finite(value, name) for name, value in zip(self.inputs, values, strict=True)]
+        arrays = [numeric(value, name) for name, value in zip(self.inputs, values, strict=True)]
         for (name, shape), array in zip(self.inputs.items(), arrays, strict=True):
             if array.shape[array.ndim - len(shape) :] != shape:
                 wanted = ", ".join(str(k) for k in shape)
@@ -181,19 +199,22 @@ class Kernel:
         ], batch
 
     @cached_property
-    def _scalar(self) -> Any:
-        return self._entry("", len(self.inputs) + 1)
+    def _single(self) -> tuple[int, ...] | None:
+        """Shape of the only input, for kernels that have one: the common case, checked without loops."""
+        return next(iter(self.inputs.values())) if len(self.inputs) == 1 else None
 
     @cached_property
-    def _batch(self) -> Any:
-        return self._entry("_batch", len(self.inputs) + 2)
-
-    def _entry(self, suffix: str, arguments: int) -> Any:
-        assert self.unit.compiled is not None
-        function = getattr(self.unit.compiled, self.record["symbol"] + suffix)
-        function.restype = None
-        function.argtypes = [ctypes.c_void_p] * arguments if not suffix else [ctypes.c_int64] + [ctypes.c_void_p] * (arguments - 1)
-        return function
+    def _entries(self) -> tuple[Any, Any] | None:
+        """Compiled entry points for one configuration and for a batch; None where Python text has to serve."""
+        if self.unit.compiled is None:
+            return None
+        entries = []
+        for suffix, head in (("", []), ("_batch", [ctypes.c_int64])):
+            function = getattr(self.unit.compiled, self.record["symbol"] + suffix)
+            function.restype = ctypes.c_int
+            function.argtypes = head + [ctypes.c_void_p] * (len(self.inputs) + 1)
+            entries.append(function)
+        return entries[0], entries[1]
 
     def _body_inputs(self, flat: Sequence[Any], module: Any) -> list[Any]:
         """Inputs of the body from flat public inputs: trigonometry of q by `module` (numpy or casadi), the rest as it is."""
@@ -209,7 +230,8 @@ class Kernel:
         """The kernel at casadi SX inputs (q a vector, others in their shape), as an SX matrix of its shape (3-D results: (6, n*n))."""
         import casadi
 
-        flat = [casadi.SX(v).T.elements() if len(shape) > 1 else casadi.SX(v).elements() for v, shape in zip(values, self.inputs.values(), strict=True)]
+        given = [casadi.SX(value) for value in values]
+        flat = [x.T.elements() if len(shape) > 1 else x.elements() for x, shape in zip(given, self.inputs.values(), strict=True)]
         results = casadi.vertcat(*[casadi.SX(r) for r in self.unit.text[self.name](*self._body_inputs(flat, casadi))])
         rows = self.shape[0]
         return casadi.reshape(results, results.numel() // rows, rows).T if len(self.shape) > 1 else results

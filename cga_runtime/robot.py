@@ -1,7 +1,7 @@
 """Robots and chains: load a robot by name or file, cut chains from it, and evaluate their kernels.
 
-Shapes: q is (..., n), results keep the leading dimensions. Units are SI and radians. Frames LOCAL, WORLD and LOCAL_WORLD_ALIGNED mean what they
-mean in Pinocchio; rows are named by `order`.
+Shapes: q is (..., n), results keep the leading dimensions. Units are SI and radians. Frames LOCAL, WORLD and LOCAL_WORLD_ALIGNED mean
+what they mean in Pinocchio; rows are named by `order`.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime import workshop
-from cga_runtime.errors import RobotFileError, UnknownNameError, WrongSizeError
+from cga_runtime.errors import UnknownNameError, WrongSizeError
 from cga_runtime.kernels import Kernel, Library, Unit, finite, generated_folder, library
 from cga_runtime.workshop import ChainOrder
 
@@ -63,9 +63,9 @@ class Robot:
         self.source: str = data["source"]
         self.joint_names: tuple[str, ...] = tuple(j["name"] for j in data["joints"])
         self.frame_names: tuple[str, ...] = tuple(f["name"] for f in data["frames"])
-        self.lower, self.upper, self.velocity_limit, self.effort_limit = (
-            np.array([_bound(j[key], sign) for j in data["joints"]]) for key, sign in (("lower", -1), ("upper", 1), ("velocity", 1), ("effort", 1))
-        )
+        limits = {key: [j[key] for j in data["joints"]] for key in ("lower", "upper", "velocity", "effort")}
+        self.lower, self.upper = _bounds(limits["lower"], -math.inf), _bounds(limits["upper"], math.inf)
+        self.velocity_limit, self.effort_limit = _bounds(limits["velocity"], math.inf), _bounds(limits["effort"], math.inf)
 
     @property
     def nq(self) -> int:
@@ -202,9 +202,9 @@ def _ordered(rows: Array, order: str, axis: int) -> Array:
     return taken
 
 
-def _bound(value: float | None, sign: int) -> float:
+def _bounds(values: Sequence[float | None], missing: float) -> Array:
     """JSON has no infinity: an absent bound is null."""
-    return sign * math.inf if value is None else float(value)
+    return np.array([missing if value is None else float(value) for value in values])
 
 
 def _uniform(lower: Array, upper: Array, rng: np.random.Generator, size: int | tuple[int, ...] | None) -> Array:

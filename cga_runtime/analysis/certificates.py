@@ -1,8 +1,8 @@
 """Exact rational certificates: the screws of an arm at rational half-angle tangents, and the rank of a matrix without rounding.
 
 With t = tan(q/2) rational, cos q = (1 - t^2)/(1 + t^2) and sin q = 2t/(1 + t^2) are rational, and so is every screw of a robot whose
-description has decimal numbers and right-angled (or rational) rotations. A full rank at one such point proves full rank almost everywhere; the
-recursion below is also independent of the generated kernels.
+description has decimal numbers and right-angled (or rational) rotations. A full rank at one such point proves full rank almost
+everywhere; the recursion below is also independent of the generated kernels.
 """
 
 from __future__ import annotations

@@ -97,7 +97,7 @@ class ClosedChain:
         """q, or GraspError where the arms do not hold the grasp within CLOSED."""
         error = float(np.abs(self.closure_error(q, grasp)).max(initial=0.0))
         if error > CLOSED:
-            raise GraspError(f"the loop is not closed: closure error {error:.1e}, at most {CLOSED:.0e}; use loop.grasp(q) for the grasp of q")
+            raise GraspError(f"the loop is not closed (error {error:.1e}, at most {CLOSED:.0e}); loop.grasp(q) is the grasp of q")
         return self.check(q)
 
     def scheme(self, actuated: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -150,14 +150,16 @@ class ClosedChain:
 
         return atlas(self, samples, seed)
 
-    def nearest_singularity(self, q: ArrayLike, kind: str = "limb", actuated: Sequence[int] | None = None, **options: Any) -> Nearest:
-        """The nearest configuration where a factor of that kind ("limb", "constraint", "actuation") vanishes; see analysis.singularities."""
+    def nearest_singularity(
+        self, q: ArrayLike, kind: str = "limb", actuated: Sequence[int] | None = None, **options: Any
+    ) -> Nearest:
+        """The nearest singularity of a kind ("limb", "constraint", "actuation"); see analysis.singularities."""
         from cga_runtime.analysis.singularities import nearest_singularity
 
         return nearest_singularity(self, q, kind, actuated, **options)
 
     def singularity_free_box(self, q: ArrayLike, actuated: Sequence[int], **options: Any) -> SingularityFreeBox:
-        """Half-width of the largest box around q in which no zero of the determinant was found (not certified); see analysis.singularities."""
+        """Half-width of the largest box around q without a zero of the determinant, not certified; see analysis.singularities."""
         from cga_runtime.analysis.singularities import singularity_free_box
 
         return singularity_free_box(self, q, actuated, **options)

@@ -14,7 +14,6 @@ from cga_codegen.generate import Progress, checked_in_robots, generate
 from cga_codegen.robots.model import ModelError
 
 
-
 def prove(say: Progress) -> None:
     """Runs the exact proofs of the algebra's laws, naming each; raises AlgebraError with a counterexample."""
     from cga_codegen.algebra import proofs

@@ -9,6 +9,15 @@
 #define CGA_EXPORT
 #endif
 
+/* 0 * x is zero for every finite x, and NaN for NaN and infinity. */
+static inline int cga_not_finite(const double *x, int n)
+{
+    double zero = 0.0;
+    for (int i = 0; i < n; ++i)
+        zero += 0.0 * x[i];
+    return zero != 0.0;
+}
+
 /* T is the number type of the bodies, K(x) a constant of that type. */
 #ifndef T
 #define T double
@@ -441,15 +450,18 @@ static inline void cga_screws_bracket_body(const T *restrict screws, T *restrict
     out[0] = t418;
 }
 
-CGA_EXPORT void cga_screws_bracket(const double *restrict screws /* 36 */, double *restrict out /* 1 */)
+CGA_EXPORT int cga_screws_bracket(const double *restrict screws /* 36 */, double *restrict out /* 1 */)
 {
     cga_screws_bracket_body(screws, out);
+    return cga_not_finite(screws, 36);
 }
 
-CGA_EXPORT void cga_screws_bracket_batch(int64_t n, const double *restrict screws /* 36 */, double *restrict out)
+CGA_EXPORT int cga_screws_bracket_batch(int64_t n, const double *restrict screws /* 36 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_screws_bracket(screws + k * 36, out + k * 1);
+        bad |= cga_screws_bracket(screws + k * 36, out + k * 1);
+    return bad;
 }
 
 /* Derivative of `bracket` by each entry (6x6, row-major): its cofactors, finite also where the bracket vanishes. From cga_codegen.kernels.screws.bracket_cofactors.
@@ -1648,13 +1660,16 @@ static inline void cga_screws_bracket_cofactors_body(const T *restrict screws, T
     out[35] = t1153;
 }
 
-CGA_EXPORT void cga_screws_bracket_cofactors(const double *restrict screws /* 36 */, double *restrict out /* 36 */)
+CGA_EXPORT int cga_screws_bracket_cofactors(const double *restrict screws /* 36 */, double *restrict out /* 36 */)
 {
     cga_screws_bracket_cofactors_body(screws, out);
+    return cga_not_finite(screws, 36);
 }
 
-CGA_EXPORT void cga_screws_bracket_cofactors_batch(int64_t n, const double *restrict screws /* 36 */, double *restrict out)
+CGA_EXPORT int cga_screws_bracket_cofactors_batch(int64_t n, const double *restrict screws /* 36 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_screws_bracket_cofactors(screws + k * 36, out + k * 36);
+        bad |= cga_screws_bracket_cofactors(screws + k * 36, out + k * 36);
+    return bad;
 }

@@ -87,8 +87,9 @@ def test_a_rotation_near_a_signed_permutation_becomes_it_as_a_whole():
 
 
 def test_single_entries_are_never_snapped():
-    r = rodrigues((0.0, 0.0, 1.0), 0.3) @ rodrigues((1.0, 0.0, 0.0), 1e-12)  # entries near 0 and near 1 in a general rotation
-    assert 0.0 < np.abs(r).min() < 1e-11 and np.array_equal(as_rotation(r, "r"), r)
+    r = rodrigues((0.0, 0.0, 1.0), 0.3) @ rodrigues((1.0, 0.0, 0.0), 1e-12)  # a general rotation with entries of 1e-12
+    assert np.count_nonzero(np.abs(r) < 1e-11) == 4 and np.count_nonzero(r) == 8
+    assert np.array_equal(as_rotation(r, "r"), r)
     far = rodrigues((0.0, 1.0, 0.0), 3.7e-6)  # a right angle written as 1.5708 is off by this: the file means what it says
     assert np.array_equal(as_rotation(far, "r"), far)
 

@@ -15,7 +15,7 @@ from cga_codegen.algebra.blade_types import BladeType, product_table, product_ty
 from cga_codegen.algebra.multivector import Multivector
 from cga_codegen.algebra.signature import CGA, G3, G51, PGA, AlgebraError, Signature
 
-LAWS = settings(max_examples=40, derandomize=True, deadline=None)
+LAWS = settings(max_examples=25, derandomize=True, deadline=None)
 FULL = {s.name: BladeType(f"all of {s.name}", s.blades, s) for s in (G3, PGA, CGA, G51)}
 numbers = st.one_of(st.just(0), st.fractions(-4, 4, max_denominator=6))
 

@@ -43,7 +43,7 @@ class KernelRecord:
         data: dict[str, Any] = {
             "source": self.source,
             "symbol": self.symbol,
-            "inputs": {name: list(shape) for name, shape in self.inputs},
+            "inputs": [[name, list(shape)] for name, shape in self.inputs],
             "shape": list(self.shape),
             "operations": counts.total,
             "multiplications": counts.multiplications,

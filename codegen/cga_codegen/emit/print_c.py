@@ -22,6 +22,15 @@ PREAMBLE = """\
 #define CGA_EXPORT
 #endif
 
+/* 0 * x is zero for every finite x, and NaN for NaN and infinity. */
+static inline int cga_not_finite(const double *x, int n)
+{
+    double zero = 0.0;
+    for (int i = 0; i < n; ++i)
+        zero += 0.0 * x[i];
+    return zero != 0.0;
+}
+
 /* T is the number type of the bodies, K(x) a constant of that type. */
 #ifndef T
 #define T double
@@ -53,26 +62,26 @@ def print_body(program: Program, symbol: str, docstring: str) -> str:
 def print_entries(program: Program, symbol: str, kinds: Sequence[str]) -> str:
     """The exported functions `<symbol>(q, ..., out)` and `<symbol>_batch(n, q, ..., out)` for double arrays.
 
+    Both return 0, or 1 if an input holds NaN or infinity (the result is then not to be used).
     kinds: for each joint "revolute", "continuous" or "prismatic". Inputs c, s, ch, sh of the body come from q; others are passed on.
     Batches are row-major: element k of an input begins at k times its size.
     """
     names = [port.name for port in program.inputs]
     pairs = [pair for pair in _PAIRS if set(pair) & set(names)]
-    passed = [port for port in program.inputs if not any(port.name in pair for pair in _PAIRS)]
-    arguments = ([f"const double *restrict q /* {len(kinds)} */"] if pairs else []) + [
-        f"const double *restrict {port.name} /* {port.size} */" for port in passed
-    ]
     n = len(kinds)
-    lines = [f"CGA_EXPORT void {symbol}({', '.join(arguments)}, double *restrict out /* {program.output.size} */)\n{{\n"]
+    sizes = ([("q", n)] if pairs else []) + [(p.name, p.size) for p in program.inputs if not any(p.name in pair for pair in _PAIRS)]
+    arguments = ", ".join(f"const double *restrict {name} /* {size} */" for name, size in sizes)
+    lines = [f"CGA_EXPORT int {symbol}({arguments}, double *restrict out /* {program.output.size} */)\n{{\n"]
     for pair in pairs:
         lines.append(f"    double {pair[0]}[{n}], {pair[1]}[{n}];\n")
         lines += [f"    {line}\n" for line in _trigonometry(pair, kinds)]
         lines += [f"    (void){name};\n" for name in pair if name not in names]
-    lines.append(f"    {symbol}_body({', '.join(names)}, out);\n}}\n\n")
-    sizes = ([("q", n)] if pairs else []) + [(port.name, port.size) for port in passed]
+    lines.append(f"    {symbol}_body({', '.join(names)}, out);\n")
+    lines.append(f"    return {' || '.join(f'cga_not_finite({name}, {size})' for name, size in sizes)};\n}}\n\n")
     call = ", ".join(f"{name} + k * {size}" for name, size in sizes)
-    lines.append(f"CGA_EXPORT void {symbol}_batch(int64_t n, {', '.join(arguments)}, double *restrict out)\n{{\n")
-    lines.append(f"    for (int64_t k = 0; k < n; ++k)\n        {symbol}({call}, out + k * {program.output.size});\n}}\n")
+    lines.append(f"CGA_EXPORT int {symbol}_batch(int64_t n, {arguments}, double *restrict out)\n{{\n    int bad = 0;\n")
+    lines.append(f"    for (int64_t k = 0; k < n; ++k)\n        bad |= {symbol}({call}, out + k * {program.output.size});\n")
+    lines.append("    return bad;\n}\n")
     return "".join(lines)
 
 

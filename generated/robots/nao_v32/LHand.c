@@ -9,6 +9,15 @@
 #define CGA_EXPORT
 #endif
 
+/* 0 * x is zero for every finite x, and NaN for NaN and infinity. */
+static inline int cga_not_finite(const double *x, int n)
+{
+    double zero = 0.0;
+    for (int i = 0; i < n; ++i)
+        zero += 0.0 * x[i];
+    return zero != 0.0;
+}
+
 /* T is the number type of the bodies, K(x) a constant of that type. */
 #ifndef T
 #define T double
@@ -153,17 +162,20 @@ static inline void cga_nao_v32_LHand_motor_body(const T *restrict ch, const T *r
     out[7] = t123;
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_motor(const double *restrict q /* 5 */, double *restrict out /* 8 */)
+CGA_EXPORT int cga_nao_v32_LHand_motor(const double *restrict q /* 5 */, double *restrict out /* 8 */)
 {
     double ch[5], sh[5];
     for (int j = 0; j < 5; ++j) { ch[j] = cos(0.5 * q[j]); sh[j] = sin(0.5 * q[j]); }
     cga_nao_v32_LHand_motor_body(ch, sh, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_motor_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_motor_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_motor(q + k * 5, out + k * 8);
+        bad |= cga_nao_v32_LHand_motor(q + k * 5, out + k * 8);
+    return bad;
 }
 
 /* The homogeneous matrix of the end frame in the root frame, x_root = R x + p. From cga_codegen.kernels.kinematics.pose.
@@ -265,17 +277,20 @@ static inline void cga_nao_v32_LHand_pose_body(const T *restrict c, const T *res
     out[15] = K(1.0);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_pose(const double *restrict q /* 5 */, double *restrict out /* 16 */)
+CGA_EXPORT int cga_nao_v32_LHand_pose(const double *restrict q /* 5 */, double *restrict out /* 16 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_pose_body(c, s, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_pose_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_pose_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_pose(q + k * 5, out + k * 16);
+        bad |= cga_nao_v32_LHand_pose(q + k * 5, out + k * 16);
+    return bad;
 }
 
 /* Position (m) of the end frame's origin in the root frame. From cga_codegen.kernels.kinematics.point.
@@ -355,17 +370,20 @@ static inline void cga_nao_v32_LHand_point_body(const T *restrict c, const T *re
     out[2] = t67;
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_point(const double *restrict q /* 5 */, double *restrict out /* 3 */)
+CGA_EXPORT int cga_nao_v32_LHand_point(const double *restrict q /* 5 */, double *restrict out /* 3 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_point_body(c, s, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_point_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_point_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_point(q + k * 5, out + k * 3);
+        bad |= cga_nao_v32_LHand_point(q + k * 5, out + k * 3);
+    return bad;
 }
 
 /* World screws of the joints as bivectors, one a column, rows e12 e13 e23 e1i e2i e3i (about the root frame's origin). From cga_codegen.kernels.kinematics.screws.
@@ -472,17 +490,20 @@ static inline void cga_nao_v32_LHand_screws_body(const T *restrict c, const T *r
     out[29] = t67;
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_screws(const double *restrict q /* 5 */, double *restrict out /* 30 */)
+CGA_EXPORT int cga_nao_v32_LHand_screws(const double *restrict q /* 5 */, double *restrict out /* 30 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_screws_body(c, s, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_screws_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_screws_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_screws(q + k * 5, out + k * 30);
+        bad |= cga_nao_v32_LHand_screws(q + k * 5, out + k * 30);
+    return bad;
 }
 
 /* Analytic Jacobian of the motor: column j is -1/2 S_j M with the world screw S_j, rows as the motor's. From cga_codegen.kernels.versors.motor_jacobian.
@@ -999,17 +1020,20 @@ static inline void cga_nao_v32_LHand_motor_jacobian_body(const T *restrict ch, c
     out[39] = -t467;
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_motor_jacobian(const double *restrict q /* 5 */, double *restrict out /* 40 */)
+CGA_EXPORT int cga_nao_v32_LHand_motor_jacobian(const double *restrict q /* 5 */, double *restrict out /* 40 */)
 {
     double ch[5], sh[5];
     for (int j = 0; j < 5; ++j) { ch[j] = cos(0.5 * q[j]); sh[j] = sin(0.5 * q[j]); }
     cga_nao_v32_LHand_motor_jacobian_body(ch, sh, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_motor_jacobian_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_motor_jacobian_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_motor_jacobian(q + k * 5, out + k * 40);
+        bad |= cga_nao_v32_LHand_motor_jacobian(q + k * 5, out + k * 40);
+    return bad;
 }
 
 /* Geometric Jacobian, frame LOCAL: twist of the end frame in its own axes, (v, w). From the chain seen from the end frame. From cga_codegen.kernels.kinematics.jacobian_local.
@@ -1106,17 +1130,20 @@ static inline void cga_nao_v32_LHand_jacobian_local_body(const T *restrict c, co
     out[29] = K(0.0);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_local(const double *restrict q /* 5 */, double *restrict out /* 30 */)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_local(const double *restrict q /* 5 */, double *restrict out /* 30 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_jacobian_local_body(c, s, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_local_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_local_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_jacobian_local(q + k * 5, out + k * 30);
+        bad |= cga_nao_v32_LHand_jacobian_local(q + k * 5, out + k * 30);
+    return bad;
 }
 
 /* Geometric Jacobian, frame WORLD: twist of the end link about the root frame's origin, (v, w). From cga_codegen.kernels.kinematics.jacobian_world.
@@ -1223,17 +1250,20 @@ static inline void cga_nao_v32_LHand_jacobian_world_body(const T *restrict c, co
     out[29] = t28;
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_world(const double *restrict q /* 5 */, double *restrict out /* 30 */)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_world(const double *restrict q /* 5 */, double *restrict out /* 30 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_jacobian_world_body(c, s, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_world_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_world_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_jacobian_world(q + k * 5, out + k * 30);
+        bad |= cga_nao_v32_LHand_jacobian_world(q + k * 5, out + k * 30);
+    return bad;
 }
 
 /* Geometric Jacobian, frame LOCAL_WORLD_ALIGNED: velocity of the end frame's origin and angular velocity, in root axes, (v, w). From cga_codegen.kernels.kinematics.jacobian_local_world_aligned.
@@ -1377,17 +1407,20 @@ static inline void cga_nao_v32_LHand_jacobian_local_world_aligned_body(const T *
     out[29] = t9;
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_local_world_aligned(const double *restrict q /* 5 */, double *restrict out /* 30 */)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_local_world_aligned(const double *restrict q /* 5 */, double *restrict out /* 30 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_jacobian_local_world_aligned_body(c, s, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_local_world_aligned_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_local_world_aligned_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_jacobian_local_world_aligned(q + k * 5, out + k * 30);
+        bad |= cga_nao_v32_LHand_jacobian_local_world_aligned(q + k * 5, out + k * 30);
+    return bad;
 }
 
 /* Time derivative of the LOCAL Jacobian: dB_j/dt = [B_j, sum_{k>j} B_k v_k] with the body screws B. From cga_codegen.kernels.kinematics.jacobian_derivative_local.
@@ -1610,17 +1643,20 @@ static inline void cga_nao_v32_LHand_jacobian_derivative_local_body(const T *res
     out[29] = K(0.0);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_derivative_local(const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out /* 30 */)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_derivative_local(const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out /* 30 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_jacobian_derivative_local_body(c, s, v, out);
+    return cga_not_finite(q, 5) || cga_not_finite(v, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_derivative_local_batch(int64_t n, const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_derivative_local_batch(int64_t n, const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_jacobian_derivative_local(q + k * 5, v + k * 5, out + k * 30);
+        bad |= cga_nao_v32_LHand_jacobian_derivative_local(q + k * 5, v + k * 5, out + k * 30);
+    return bad;
 }
 
 /* Time derivative of the WORLD Jacobian at joint velocity v: dS_j/dt = [sum_{k<j} S_k v_k, S_j]. From cga_codegen.kernels.kinematics.jacobian_derivative_world.
@@ -1853,17 +1889,20 @@ static inline void cga_nao_v32_LHand_jacobian_derivative_world_body(const T *res
     out[29] = t193;
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_derivative_world(const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out /* 30 */)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_derivative_world(const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out /* 30 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_jacobian_derivative_world_body(c, s, v, out);
+    return cga_not_finite(q, 5) || cga_not_finite(v, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_derivative_world_batch(int64_t n, const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_derivative_world_batch(int64_t n, const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_jacobian_derivative_world(q + k * 5, v + k * 5, out + k * 30);
+        bad |= cga_nao_v32_LHand_jacobian_derivative_world(q + k * 5, v + k * 5, out + k * 30);
+    return bad;
 }
 
 /* Time derivative of the LOCAL_WORLD_ALIGNED Jacobian (root axes, point of the end frame). From cga_codegen.kernels.kinematics.jacobian_derivative_local_world_aligned.
@@ -2187,17 +2226,20 @@ static inline void cga_nao_v32_LHand_jacobian_derivative_local_world_aligned_bod
     out[29] = t284;
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_derivative_local_world_aligned(const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out /* 30 */)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_derivative_local_world_aligned(const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out /* 30 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_jacobian_derivative_local_world_aligned_body(c, s, v, out);
+    return cga_not_finite(q, 5) || cga_not_finite(v, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_jacobian_derivative_local_world_aligned_batch(int64_t n, const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_jacobian_derivative_local_world_aligned_batch(int64_t n, const double *restrict q /* 5 */, const double *restrict v /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_jacobian_derivative_local_world_aligned(q + k * 5, v + k * 5, out + k * 30);
+        bad |= cga_nao_v32_LHand_jacobian_derivative_local_world_aligned(q + k * 5, v + k * 5, out + k * 30);
+    return bad;
 }
 
 /* Kinematic Hessian of the LOCAL Jacobian: [:, j, k] = dB_j/dq_k = [B_j, B_k] for k > j, else 0. From cga_codegen.kernels.kinematics.hessian_local.
@@ -2577,17 +2619,20 @@ static inline void cga_nao_v32_LHand_hessian_local_body(const T *restrict c, con
     out[149] = K(0.0);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_hessian_local(const double *restrict q /* 5 */, double *restrict out /* 150 */)
+CGA_EXPORT int cga_nao_v32_LHand_hessian_local(const double *restrict q /* 5 */, double *restrict out /* 150 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_hessian_local_body(c, s, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_hessian_local_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_hessian_local_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_hessian_local(q + k * 5, out + k * 150);
+        bad |= cga_nao_v32_LHand_hessian_local(q + k * 5, out + k * 150);
+    return bad;
 }
 
 /* Kinematic Hessian of the WORLD Jacobian: [:, j, k] = dS_j/dq_k = [S_k, S_j] for k < j, else 0. From cga_codegen.kernels.kinematics.hessian_world.
@@ -2978,17 +3023,20 @@ static inline void cga_nao_v32_LHand_hessian_world_body(const T *restrict c, con
     out[149] = K(0.0);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_hessian_world(const double *restrict q /* 5 */, double *restrict out /* 150 */)
+CGA_EXPORT int cga_nao_v32_LHand_hessian_world(const double *restrict q /* 5 */, double *restrict out /* 150 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_hessian_world_body(c, s, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_hessian_world_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_hessian_world_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_hessian_world(q + k * 5, out + k * 150);
+        bad |= cga_nao_v32_LHand_hessian_world(q + k * 5, out + k * 150);
+    return bad;
 }
 
 /* Kinematic Hessian of the LOCAL_WORLD_ALIGNED Jacobian. From cga_codegen.kernels.kinematics.hessian_local_world_aligned.
@@ -3366,15 +3414,18 @@ static inline void cga_nao_v32_LHand_hessian_local_world_aligned_body(const T *r
     out[149] = K(0.0);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_hessian_local_world_aligned(const double *restrict q /* 5 */, double *restrict out /* 150 */)
+CGA_EXPORT int cga_nao_v32_LHand_hessian_local_world_aligned(const double *restrict q /* 5 */, double *restrict out /* 150 */)
 {
     double c[5], s[5];
     for (int j = 0; j < 5; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_LHand_hessian_local_world_aligned_body(c, s, out);
+    return cga_not_finite(q, 5);
 }
 
-CGA_EXPORT void cga_nao_v32_LHand_hessian_local_world_aligned_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_LHand_hessian_local_world_aligned_batch(int64_t n, const double *restrict q /* 5 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_LHand_hessian_local_world_aligned(q + k * 5, out + k * 150);
+        bad |= cga_nao_v32_LHand_hessian_local_world_aligned(q + k * 5, out + k * 150);
+    return bad;
 }

@@ -9,6 +9,15 @@
 #define CGA_EXPORT
 #endif
 
+/* 0 * x is zero for every finite x, and NaN for NaN and infinity. */
+static inline int cga_not_finite(const double *x, int n)
+{
+    double zero = 0.0;
+    for (int i = 0; i < n; ++i)
+        zero += 0.0 * x[i];
+    return zero != 0.0;
+}
+
 /* T is the number type of the bodies, K(x) a constant of that type. */
 #ifndef T
 #define T double
@@ -217,17 +226,20 @@ static inline void cga_nao_v32_RHand_with_LHand_screws_body(const T *restrict c,
     out[59] = t135;
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_screws(const double *restrict q /* 10 */, double *restrict out /* 60 */)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_screws(const double *restrict q /* 10 */, double *restrict out /* 60 */)
 {
     double c[10], s[10];
     for (int j = 0; j < 10; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_RHand_with_LHand_screws_body(c, s, out);
+    return cga_not_finite(q, 10);
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_screws_batch(int64_t n, const double *restrict q /* 10 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_screws_batch(int64_t n, const double *restrict q /* 10 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_RHand_with_LHand_screws(q + k * 10, out + k * 60);
+        bad |= cga_nao_v32_RHand_with_LHand_screws(q + k * 10, out + k * 60);
+    return bad;
 }
 
 /* Bivector part e12 e13 e23 e1i e2i e3i of M_R X ~M_L, X the grasp motor: zero exactly when the loop is closed (the motor is +-1). From cga_codegen.kernels.closed_chain.closure_error.
@@ -644,17 +656,20 @@ static inline void cga_nao_v32_RHand_with_LHand_closure_error_body(const T *rest
     out[5] = -t401;
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_closure_error(const double *restrict q /* 10 */, const double *restrict grasp /* 8 */, double *restrict out /* 6 */)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_closure_error(const double *restrict q /* 10 */, const double *restrict grasp /* 8 */, double *restrict out /* 6 */)
 {
     double ch[10], sh[10];
     for (int j = 0; j < 10; ++j) { ch[j] = cos(0.5 * q[j]); sh[j] = sin(0.5 * q[j]); }
     cga_nao_v32_RHand_with_LHand_closure_error_body(ch, sh, grasp, out);
+    return cga_not_finite(q, 10) || cga_not_finite(grasp, 8);
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_closure_error_batch(int64_t n, const double *restrict q /* 10 */, const double *restrict grasp /* 8 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_closure_error_batch(int64_t n, const double *restrict q /* 10 */, const double *restrict grasp /* 8 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_RHand_with_LHand_closure_error(q + k * 10, grasp + k * 8, out + k * 6);
+        bad |= cga_nao_v32_RHand_with_LHand_closure_error(q + k * 10, grasp + k * 8, out + k * 6);
+    return bad;
 }
 
 /* Derivative of the closure error: bivector part of -1/2 S_j E (right arm) and +1/2 E S_j (left), E = M_R X ~M_L. From cga_codegen.kernels.closed_chain.closure_jacobian.
@@ -1699,17 +1714,20 @@ static inline void cga_nao_v32_RHand_with_LHand_closure_jacobian_body(const T *r
     out[59] = t975;
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_closure_jacobian(const double *restrict q /* 10 */, const double *restrict grasp /* 8 */, double *restrict out /* 60 */)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_closure_jacobian(const double *restrict q /* 10 */, const double *restrict grasp /* 8 */, double *restrict out /* 60 */)
 {
     double ch[10], sh[10];
     for (int j = 0; j < 10; ++j) { ch[j] = cos(0.5 * q[j]); sh[j] = sin(0.5 * q[j]); }
     cga_nao_v32_RHand_with_LHand_closure_jacobian_body(ch, sh, grasp, out);
+    return cga_not_finite(q, 10) || cga_not_finite(grasp, 8);
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_closure_jacobian_batch(int64_t n, const double *restrict q /* 10 */, const double *restrict grasp /* 8 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_closure_jacobian_batch(int64_t n, const double *restrict q /* 10 */, const double *restrict grasp /* 8 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_RHand_with_LHand_closure_jacobian(q + k * 10, grasp + k * 8, out + k * 60);
+        bad |= cga_nao_v32_RHand_with_LHand_closure_jacobian(q + k * 10, grasp + k * 8, out + k * 60);
+    return bad;
 }
 
 /* Gradient over q of sum_ij weights[i, j] S[i, j], S the loop's screws as bivectors (6 x n, row-major weights). From cga_codegen.kernels.closed_chain.screws_pullback.
@@ -2408,17 +2426,20 @@ static inline void cga_nao_v32_RHand_with_LHand_screws_pullback_body(const T *re
     out[9] = K(0.0);
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_screws_pullback(const double *restrict q /* 10 */, const double *restrict weights /* 60 */, double *restrict out /* 10 */)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_screws_pullback(const double *restrict q /* 10 */, const double *restrict weights /* 60 */, double *restrict out /* 10 */)
 {
     double c[10], s[10];
     for (int j = 0; j < 10; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_RHand_with_LHand_screws_pullback_body(c, s, weights, out);
+    return cga_not_finite(q, 10) || cga_not_finite(weights, 60);
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_screws_pullback_batch(int64_t n, const double *restrict q /* 10 */, const double *restrict weights /* 60 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_screws_pullback_batch(int64_t n, const double *restrict q /* 10 */, const double *restrict weights /* 60 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_RHand_with_LHand_screws_pullback(q + k * 10, weights + k * 60, out + k * 10);
+        bad |= cga_nao_v32_RHand_with_LHand_screws_pullback(q + k * 10, weights + k * 60, out + k * 10);
+    return bad;
 }
 
 /* Per arm (right, left) the centre S of its spherical joint (m) in the root frame: points A and B of paper C. From cga_codegen.kernels.closed_chain.wrist_centres.
@@ -2447,17 +2468,20 @@ static inline void cga_nao_v32_RHand_with_LHand_wrist_centres_body(const T *rest
     out[5] = t13;
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_wrist_centres(const double *restrict q /* 10 */, double *restrict out /* 6 */)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_wrist_centres(const double *restrict q /* 10 */, double *restrict out /* 6 */)
 {
     double c[10], s[10];
     for (int j = 0; j < 10; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_RHand_with_LHand_wrist_centres_body(c, s, out);
+    return cga_not_finite(q, 10);
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_wrist_centres_batch(int64_t n, const double *restrict q /* 10 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_wrist_centres_batch(int64_t n, const double *restrict q /* 10 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_RHand_with_LHand_wrist_centres(q + k * 10, out + k * 6);
+        bad |= cga_nao_v32_RHand_with_LHand_wrist_centres(q + k * 10, out + k * 6);
+    return bad;
 }
 
 /* Per arm (right, left) the two factors of its limb singularities: f, the signed distance (m) of the S-joint from axis 1, and sin q4. From cga_codegen.kernels.closed_chain.limb_factors.
@@ -2566,17 +2590,20 @@ static inline void cga_nao_v32_RHand_with_LHand_limb_factors_body(const T *restr
     out[3] = -t95;
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_limb_factors(const double *restrict q /* 10 */, double *restrict out /* 4 */)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_limb_factors(const double *restrict q /* 10 */, double *restrict out /* 4 */)
 {
     double c[10], s[10];
     for (int j = 0; j < 10; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_RHand_with_LHand_limb_factors_body(c, s, out);
+    return cga_not_finite(q, 10);
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_limb_factors_batch(int64_t n, const double *restrict q /* 10 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_limb_factors_batch(int64_t n, const double *restrict q /* 10 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_RHand_with_LHand_limb_factors(q + k * 10, out + k * 4);
+        bad |= cga_nao_v32_RHand_with_LHand_limb_factors(q + k * 10, out + k * 4);
+    return bad;
 }
 
 /* Per arm (right, left) the unit pure force through U and S that no joint of the arm can work against (paper C, eq. 15). From cga_codegen.kernels.closed_chain.constraint_wrenches.
@@ -2623,15 +2650,18 @@ static inline void cga_nao_v32_RHand_with_LHand_constraint_wrenches_body(const T
     out[11] = -t25;
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_constraint_wrenches(const double *restrict q /* 10 */, double *restrict out /* 12 */)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_constraint_wrenches(const double *restrict q /* 10 */, double *restrict out /* 12 */)
 {
     double c[10], s[10];
     for (int j = 0; j < 10; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }
     cga_nao_v32_RHand_with_LHand_constraint_wrenches_body(c, s, out);
+    return cga_not_finite(q, 10);
 }
 
-CGA_EXPORT void cga_nao_v32_RHand_with_LHand_constraint_wrenches_batch(int64_t n, const double *restrict q /* 10 */, double *restrict out)
+CGA_EXPORT int cga_nao_v32_RHand_with_LHand_constraint_wrenches_batch(int64_t n, const double *restrict q /* 10 */, double *restrict out)
 {
+    int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        cga_nao_v32_RHand_with_LHand_constraint_wrenches(q + k * 10, out + k * 12);
+        bad |= cga_nao_v32_RHand_with_LHand_constraint_wrenches(q + k * 10, out + k * 12);
+    return bad;
 }
