@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable, Sequence
 from functools import cache, cached_property
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -103,6 +104,15 @@ class Library:
 def library(folder: Path) -> Library:
     """The library of a folder, read once."""
     return Library(folder)
+
+
+@cache
+def products() -> SimpleNamespace:
+    """The generated products of the algebra by name (`motor_motor(a, b)`, ...): component axis first, any scalar, results are tuples."""
+    home = library(generated_folder())
+    scope: dict[str, Any] = {}
+    exec(compile(home.read("algebra/products.py"), "algebra/products.py", "exec"), scope)
+    return SimpleNamespace(**{name: value for name, value in scope.items() if not name.startswith("_")})
 
 
 class Unit:

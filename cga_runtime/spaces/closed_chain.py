@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.errors import GraspError, SchemeError, WrongSizeError
-from cga_runtime.kernels import Kernel, finite, generated_folder, library
+from cga_runtime.kernels import Kernel, finite, generated_folder, library, products
 from cga_runtime.robot import Chain
 
 if TYPE_CHECKING:
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from cga_runtime.analysis.singularities import Nearest, SingularityFreeBox
 
 Array = NDArray[np.float64]
+
+_REVERSE = np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0])
+"""Signs of ~M in a motor's components 1 e12 e13 e23 e1i e2i e3i e123i."""
 
 LENGTH = 0.1
 """Characteristic length (m) of determinants: moment rows are divided by it."""
@@ -83,11 +86,9 @@ class ClosedChain:
     def grasp(self, q: ArrayLike) -> Array:
         """The grasp motor X = ~M_R M_L, (..., 8), that closes the loop at q (the left hand's pose in the right hand's frame)."""
         q = self.check(q)
-        right, left = self.right.pose(q[..., : self.right.n]), self.left.pose(q[..., self.right.n :])
-        rotation = np.swapaxes(right[..., :3, :3], -1, -2)
-        shift = (rotation @ (left[..., :3, 3] - right[..., :3, 3])[..., None])[..., 0]
-        m_right, m_left = self.right.motor(q[..., : self.right.n]), self.left.motor(q[..., self.right.n :])
-        return pack_motor(_rotor_product(_reverse(m_right[..., :4]), m_left[..., :4]), shift)
+        right, left = self.right.motor(q[..., : self.right.n]), self.left.motor(q[..., self.right.n :])
+        product = products().motor_motor(np.moveaxis(right * _REVERSE, -1, 0), np.moveaxis(left, -1, 0))
+        return np.stack(product, axis=-1)
 
     def closure_error(self, q: ArrayLike, grasp: ArrayLike) -> Array:
         """Bivector coefficients (..., 6) of M_R X ~M_L; zero exactly when the arms hold the grasp X."""
@@ -167,22 +168,3 @@ class ClosedChain:
 
 def _brackets() -> Any:
     return library(generated_folder()).unit("algebra/screws")
-
-
-def pack_motor(rotor: Array, t: Array) -> Array:
-    """Motor T(t) R, (..., 8), from rotor components 1 e12 e13 e23 (..., 4) and translation (..., 3)."""
-    a, b12, b13, b23 = np.moveaxis(rotor, -1, 0)
-    x, y, z = np.moveaxis(t, -1, 0)
-    ideal = [a * x - b12 * y - b13 * z, a * y + b12 * x - b23 * z, a * z + b13 * x + b23 * y, b12 * z - b13 * y + b23 * x]
-    return np.stack([a, b12, b13, b23, *(-0.5 * part for part in ideal)], axis=-1)
-
-
-def _reverse(rotor: Array) -> Array:
-    return rotor * np.array([1.0, -1.0, -1.0, -1.0])
-
-
-def _rotor_product(left: Array, right: Array) -> Array:
-    """Geometric product of two rotors, components 1 e12 e13 e23."""
-    a, b, c, d = np.moveaxis(left, -1, 0)
-    e, f, g, h = np.moveaxis(right, -1, 0)
-    return np.stack([a * e - b * f - c * g - d * h, a * f + b * e - c * h + d * g, a * g + c * e + b * h - d * f, a * h + d * e - b * g + c * f], axis=-1)

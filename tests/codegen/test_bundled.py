@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pinocchio
 import pytest
+
 from cga_codegen.robots.bundled import bundled_robots, load_bundled
 from cga_codegen.robots.model import ModelError
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
 from cga_codegen.robots.bundled import load_bundled
 from cga_codegen.robots.errors import BadNumberError, DuplicateNameError, TreeError, UnsupportedJointError
 from cga_codegen.robots.from_dh import ModifiedRow, StandardRow, load_dh, load_mdh, nao_mdh

@@ -6,6 +6,7 @@ from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
+
 from cga_codegen.robots.bundled import load_bundled
 from cga_codegen.robots.model import Chain, Frame, Inertia, Joint, ModelError, Placement, RobotModel, as_rotation, as_vector
 

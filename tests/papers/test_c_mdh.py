@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pinocchio
 import pytest
+
 from cga_codegen.robots.bundled import bundled_robots
 from cga_codegen.robots.from_dh import nao_mdh
 

@@ -49,7 +49,7 @@ def load_urdf(path_or_text: str | os.PathLike[str], name: str | None = None, *, 
         for index, joint in enumerate(model.names)
         if index > 0
     )
-    return RobotModel(name or file.name, joints, _frames(model), file.source)
+    return RobotModel(name or file.name, joints, _frames(model, file.source), file.source)
 
 
 def _joint(model: Any, index: int, kind: str, limits: Limits, inertia: Inertia | None) -> Joint:
@@ -111,7 +111,7 @@ def _merged(parts: list[tuple[float, Array, Array]]) -> Inertia:
     return Inertia(mass, as_vector(com, "centre of mass"), cast(Any, entries))
 
 
-def _frames(model: Any) -> tuple[Frame, ...]:
+def _frames(model: Any, source: str) -> tuple[Frame, ...]:
     import pinocchio
 
     frames: dict[str, Frame] = {}
@@ -124,7 +124,9 @@ def _frames(model: Any) -> tuple[Frame, ...]:
                 continue
             name += ":link" if found.type == pinocchio.FrameType.BODY else ":joint"
             if name in frames:
-                raise DuplicateNameError(f"frame {name!r} stands for two places; rename one of the joints and links that share a name")
+                raise DuplicateNameError(
+                    f"{source}: frame {name!r} stands for two places; rename one of the joints and links that share a name"
+                )
             frame = Frame(name, frame.joint, frame.placement)
         frames[name] = frame
     return tuple(frames.values())

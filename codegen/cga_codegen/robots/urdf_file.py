@@ -28,6 +28,8 @@ from cga_codegen.robots.safe_xml import read_xml
 
 MAX_LINKS = 1000
 """Pinocchio descends link by link on the C stack (10,000 links in a row are a segmentation fault) and needs quadratic time."""
+LARGEST = 1e50
+"""Lengths, masses and inertias stay below it, so that no product of a few of them overflows. Limits may be as large as a double."""
 MOVING = ("revolute", "continuous", "prismatic")
 
 Limits = tuple[float, float, float, float]
@@ -121,7 +123,7 @@ class _Check:
             raise BrokenFileError(f"{label}: {len(found)} <{tag}> elements given, at most one is read")
         return found[0] if found else None
 
-    def numbers(self, text: str, count: int, what: str) -> tuple[float, ...]:
+    def numbers(self, text: str, count: int, what: str, below: float = math.inf) -> tuple[float, ...]:
         words = text.split()
         try:
             values = tuple(float(word) for word in words)
@@ -132,15 +134,19 @@ class _Check:
             raise BadNumberError(f"{what} is {text[:80]!r}; {wanted} needed") from None
         if not all(map(math.isfinite, values)):
             raise BadNumberError(f"{what} is {text[:80]!r}; a finite number is needed")
+        if max(map(abs, values)) >= below:
+            raise BadNumberError(f"{what} is {text[:80]!r}; less than {below:g} is needed")
         return values
 
-    def number(self, element: ET.Element | None, attribute: str, label: str, default: float | None = None) -> float:
+    def number(
+        self, element: ET.Element | None, attribute: str, label: str, default: float | None = None, below: float = math.inf
+    ) -> float:
         text = None if element is None else element.get(attribute)
         if text is None:
             if default is None:
                 raise BrokenFileError(f"{label}: {attribute!r} is missing; it has no default")
             return default
-        return self.numbers(text, 1, f"{label}: {attribute}")[0]
+        return self.numbers(text, 1, f"{label}: {attribute}", below)[0]
 
     def origin(self, element: ET.Element, label: str) -> tuple[tuple[float, ...], tuple[float, ...]]:
         origin = self.only(element, "origin", label)
@@ -148,19 +154,19 @@ class _Check:
             return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
         if unknown := set(origin.keys()) - {"xyz", "rpy"}:
             raise BrokenFileError(f"{label}: <origin> has {sorted(unknown)[0]!r}; xyz and rpy are read")
-        xyz = self.numbers(origin.get("xyz", "0 0 0"), 3, f"{label}: origin xyz")
-        return xyz, self.numbers(origin.get("rpy", "0 0 0"), 3, f"{label}: origin rpy")
+        xyz = self.numbers(origin.get("xyz", "0 0 0"), 3, f"{label}: origin xyz", LARGEST)
+        return xyz, self.numbers(origin.get("rpy", "0 0 0"), 3, f"{label}: origin rpy", LARGEST)
 
     def body(self, link: ET.Element) -> Body | None:
         label = f"{self.where}: link {link.get('name')!r}"
         inertial = self.only(link, "inertial", label)
         if inertial is None:
             return None
-        mass = self.number(self.only(inertial, "mass", label), "value", f"{label}: mass")
+        mass = self.number(self.only(inertial, "mass", label), "value", f"{label}: mass", below=LARGEST)
         if mass < 0.0:
             raise BadNumberError(f"{label}: mass is {mass:g}; zero or a positive number is needed")
         inertia = self.only(inertial, "inertia", label)
-        tensor = {k: self.number(inertia, k, f"{label}: inertia") for k in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+        tensor = {k: self.number(inertia, k, f"{label}: inertia", below=LARGEST) for k in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
         for key in ("ixx", "iyy", "izz"):
             if tensor[key] < 0.0:
                 raise BadNumberError(f"{label}: {key} is {tensor[key]:g}; zero or a positive number is needed")

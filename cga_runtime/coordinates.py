@@ -1,0 +1,82 @@
+"""Checked coordinate arrays and the few vector operations that elements and motors stand on; leading batch dimensions everywhere."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cga_runtime.errors import DegenerateError, NotFiniteError, WrongSizeError
+
+Array = NDArray[np.float64]
+
+ZERO = 1e-12
+"""A direction shorter than this is no direction."""
+
+
+def read(values: ArrayLike, what: str, *shape: int) -> Array:
+    """A read-only float64 copy of shape (..., *shape). Raises WrongSizeError, NotFiniteError."""
+    wanted = f"(..., {', '.join(str(k) for k in shape)})" if shape else "(...)"
+    try:
+        array = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise WrongSizeError(f"{what}: numbers of shape {wanted} are needed, {values!r:.80} was given") from None
+    if array.ndim < len(shape) or array.shape[array.ndim - len(shape) :] != shape:
+        raise WrongSizeError(f"{what}: shape {array.shape} given, {wanted} needed")
+    if not np.isfinite(array).all():
+        raise NotFiniteError(f"{what} holds NaN or infinity: {np.array2string(array.ravel()[:8], precision=4)}")
+    array.flags.writeable = False
+    return array
+
+
+def one_batch(what: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
+    """The common batch shape. Raises WrongSizeError if there is none."""
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError:
+        raise WrongSizeError(f"{what}: batch dimensions {', '.join(str(shape) for shape in shapes)} do not broadcast") from None
+
+
+def stack(*parts: ArrayLike) -> Array:
+    """Scalars (...) side by side as the components of a vector (..., k)."""
+    return np.stack(np.broadcast_arrays(*[np.asarray(part, dtype=np.float64) for part in parts]), axis=-1)
+
+
+def parts(vector: Array) -> tuple[Array, ...]:
+    """The components of a vector (..., k), each (...)."""
+    return tuple(np.moveaxis(vector, -1, 0))
+
+
+def dot(a: Array, b: Array) -> Array:
+    """a.b, (...)."""
+    return np.asarray((a * b).sum(axis=-1))
+
+
+def norm(a: Array) -> Array:
+    """|a|, (...)."""
+    return np.asarray(np.linalg.norm(a, axis=-1))
+
+
+def times(scalar: Array, vector: Array) -> Array:
+    """A scalar (...) times a vector (..., k)."""
+    return np.asarray(scalar[..., None] * vector)
+
+
+def unit(vector: Array, what: str) -> Array:
+    """vector / |vector|, without overflow. Raises DegenerateError for a zero vector."""
+    largest = np.abs(vector).max(axis=-1, keepdims=True)
+    if (largest <= ZERO).any():
+        raise DegenerateError(f"{what}: its direction is zero")
+    scaled = vector / largest
+    return np.asarray(scaled / norm(scaled)[..., None])
+
+
+def quaternion_product(left: Array, right: Array) -> Array:
+    """Product of even elements with components 1 e12 e13 e23, (..., 4): 16 products."""
+    a, b, c, d = parts(left)
+    e, f, g, h = parts(right)
+    return stack(
+        a * e - b * f - c * g - d * h,
+        a * f + b * e - c * h + d * g,
+        a * g + c * e + b * h - d * f,
+        a * h + d * e - b * g + c * f,
+    )

@@ -1,0 +1,116 @@
+"""Motors: rigid motions as versors M = T(t) R of CGA (paper A, eqs. 18, 62-67; paper B, eqs. 5-9).
+
+A motor is the sum of a rotor r (components 1 e12 e13 e23) and an ideal part v ei + p e123i. With v + p e123 = e123 d the even element d has
+components (p, -v3, v2, -v1), and since ei commutes with even Euclidean elements M1 M2 = r1 r2 + e123 (r1 d2 + d1 r2) ei: a dual quaternion.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cga_runtime.coordinates import Array, dot, norm, parts, quaternion_product, read, stack, times, unit
+from cga_runtime.errors import DegenerateError
+
+RIGID = 1e-9
+"""Largest deviation of a motor from M ~M = 1, and of a pose from a rotation and a translation."""
+REVERSE = np.array([1.0, -1.0, -1.0, -1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Motor:
+    """A rigid motion x -> M x ~M, components 1 e12 e13 e23 e1i e2i e3i e123i, (..., 8); M and -M are the same motion.
+
+    Raises DegenerateError where M ~M is not 1, WrongSizeError, NotFiniteError.
+    """
+
+    coefficients: Array
+    blades: ClassVar[tuple[str, ...]] = ("1", "e12", "e13", "e23", "e1i", "e2i", "e3i", "e123i")
+
+    def __post_init__(self) -> None:
+        coefficients = read(self.coefficients, "motor", 8)
+        object.__setattr__(self, "coefficients", coefficients)
+        rotor, ideal = self._rotor, self._ideal
+        scalar = np.abs(dot(rotor, rotor) - 1.0).max(initial=0.0)
+        pseudoscalar = (np.abs(dot(rotor, ideal)) / (1.0 + norm(ideal))).max(initial=0.0)
+        if max(scalar, pseudoscalar) > RIGID:
+            raise DegenerateError(
+                f"motor: M ~M must be 1; its scalar part is off by {scalar:.1e}, its e123i part by {2 * pseudoscalar:.1e} "
+                f"(at most {RIGID:.0e}); Motor.from_pose makes a motor from a matrix"
+            )
+
+    @classmethod
+    def from_pose(cls, pose: ArrayLike) -> Self:
+        """The motor of a homogeneous matrix (..., 4, 4), with scalar part >= 0.
+
+        Raises DegenerateError for a matrix that is not a rotation and a translation.
+        """
+        matrix = read(pose, "pose", 4, 4)
+        rotation, translation = matrix[..., :3, :3], matrix[..., :3, 3]
+        error = np.abs(np.swapaxes(rotation, -1, -2) @ rotation - np.eye(3)).max(initial=0.0)
+        if error > RIGID:
+            raise DegenerateError(f"pose: its 3x3 block is not a rotation, R^T R is off by {error:.1e} (at most {RIGID:.0e})")
+        if (np.linalg.det(rotation) < 0.0).any():
+            raise DegenerateError("pose: its 3x3 block is a reflection (determinant -1), not a rotation")
+        if (matrix[..., 3, :] != (0.0, 0.0, 0.0, 1.0)).any():
+            raise DegenerateError("pose: its last row must be 0 0 0 1")
+        rotor = _rotor(rotation)
+        # T R = R + (T - 1) R with T - 1 = -t ei / 2
+        x, y, z = parts(-0.5 * translation)
+        p, b12, b13, b23 = parts(quaternion_product(stack(0.0, -z, y, -x), rotor))
+        return cls(np.concatenate([rotor, stack(-b23, b13, -b12, p)], axis=-1))
+
+    @property
+    def _rotor(self) -> Array:
+        return self.coefficients[..., :4]
+
+    @property
+    def _ideal(self) -> Array:
+        """The even element d of the ideal part e123 d ei."""
+        x, y, z, p = parts(self.coefficients[..., 4:])
+        return stack(p, -z, y, -x)
+
+    def pose(self) -> Array:
+        """Homogeneous matrix, (..., 4, 4)."""
+        w, z, y, x = parts(self._rotor * np.array([1.0, -1.0, 1.0, -1.0]))  # the quaternion w + x i + y j + z k
+        _, b12, b13, b23 = parts(quaternion_product(self._ideal, self._rotor * REVERSE))
+        rows = [
+            stack(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * b23),
+            stack(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), -2 * b13),
+            stack(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), 2 * b12),
+            stack(0 * w, 0 * w, 0 * w, 0 * w + 1),
+        ]
+        return np.stack(rows, axis=-2)
+
+    def __mul__(self, other: Motor) -> Motor:
+        """Geometric product: the motion `other`, then this one."""
+        if not isinstance(other, Motor):
+            return NotImplemented
+        dual = quaternion_product(self._rotor, other._ideal) + quaternion_product(self._ideal, other._rotor)
+        p, b12, b13, b23 = parts(dual)
+        rotor = quaternion_product(self._rotor, other._rotor)
+        return Motor(np.concatenate([rotor, stack(-b23, b13, -b12, p)], axis=-1))
+
+    def __invert__(self) -> Motor:
+        """Reverse: the inverse motion."""
+        return Motor(self.coefficients * np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0]))
+
+
+def _rotor(rotation: Array) -> Array:
+    """Rotor components 1 e12 e13 e23 of a rotation matrix, scalar part >= 0."""
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = parts(rotation.reshape(*rotation.shape[:-2], 9))
+    # four times the quaternion (w, x, y, z), times one of its components; the row of the largest component is accurate
+    rows = [
+        stack(1 + xx + yy + zz, zy - yz, xz - zx, yx - xy),
+        stack(zy - yz, 1 + xx - yy - zz, xy + yx, xz + zx),
+        stack(xz - zx, xy + yx, 1 - xx + yy - zz, yz + zy),
+        stack(yx - xy, xz + zx, yz + zy, 1 - xx - yy + zz),
+    ]
+    table = np.stack(rows, axis=-2)
+    largest = np.argmax(np.diagonal(table, axis1=-2, axis2=-1), axis=-1)
+    row = np.take_along_axis(table, largest[..., None, None], axis=-2)[..., 0, :]
+    w, x, y, z = parts(unit(row, "rotation"))
+    return times(np.where(w < 0.0, -1.0, 1.0), stack(w, -z, y, -x))

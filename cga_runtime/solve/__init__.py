@@ -1,0 +1,1 @@
+"""Solvers: reaching by IPOPT."""
