@@ -17,7 +17,7 @@ import numpy as np
 import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.table import Table
+from rich.table import Column, Table
 
 from cga_runtime import __version__
 from cga_runtime.errors import CgaError, KernelWarning, WrongSizeError
@@ -124,7 +124,8 @@ def generate(
     result = {"folder": str(folder), "units": {path: {k: v["operations"] for k, v in u["kernels"].items()} for path, u in units.items()}}
 
     def table() -> Table:
-        view = Table("unit", "kernel", "operations", "CasADi instructions", "by differentiation")
+        names = (Column(title, no_wrap=True) for title in ("unit", "kernel"))
+        view = Table(*names, "operations", "before lowering", "by AD", title="arithmetic operations; by AD: of CasADi's derivative instead")
         for path, unit in units.items():
             for name, k in unit["kernels"].items():
                 ad = k.get("operations_by_differentiation", "")
@@ -270,11 +271,13 @@ def _options(version: Version = False) -> None:
 def main() -> None:
     """Entry point: named errors become one sentence on standard error and exit status 2."""
     warnings.simplefilter("once", KernelWarning)
-    warnings.showwarning = lambda message, *rest, **more: log.print(f"warning: {message}", style="yellow", highlight=False, markup=False)
+    warnings.showwarning = lambda message, *rest, **more: log.print(
+        f"warning: {message}", style="yellow", highlight=False, markup=False, soft_wrap=True
+    )
     try:
         app()
     except CgaError as error:
-        log.print(f"{type(error).__name__}: {error}", style="red", highlight=False, markup=False)
+        log.print(f"{type(error).__name__}: {error}", style="red", highlight=False, markup=False, soft_wrap=True)
         sys.exit(2)
 
 

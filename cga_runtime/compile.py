@@ -44,7 +44,7 @@ def find_compiler(choice: str | None) -> Compiler | None:
         if version is None:
             raise CompilerError(f"CC={choice!r} does not answer `--version`; unset CC, or name a working C compiler")
         return Compiler(command, version)
-    candidates = [(path,) for name in ("clang", "gcc", "cc") if (path := shutil.which(name))]
+    candidates: list[tuple[str, ...]] = [(path,) for name in ("clang", "gcc", "cc") if (path := shutil.which(name))]
     if importlib.util.find_spec("ziglang") is not None:
         candidates.append((sys.executable, "-m", "ziglang", "cc"))
     for command in candidates:

@@ -24,6 +24,7 @@ from cga_runtime.errors import NotFiniteError, StaleKernelError, UnknownNameErro
 
 FORMAT = 1
 Array = NDArray[np.float64]
+_F64 = np.dtype(np.float64)
 
 # inputs of a kernel's body that come from joint positions q
 _OF_ANGLE: dict[str, Callable[[Any, Any], Any]] = {
@@ -167,7 +168,7 @@ class Kernel:
     def __call__(self, *values: ArrayLike) -> Array:
         """Evaluates at inputs of shape (..., size). Raises WrongSizeError or NotFiniteError."""
         q = values[0] if len(values) == 1 else None
-        if type(q) is np.ndarray and q.shape == self._single and q.dtype == np.float64 and q.flags.c_contiguous:
+        if type(q) is np.ndarray and q.shape == self._single and q.dtype is _F64 and q.flags.c_contiguous:
             return self._evaluate([q], ())
         return self._evaluate(*self._checked(values))
 

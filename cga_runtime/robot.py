@@ -125,6 +125,7 @@ class Chain:
         self.index = np.array(index, dtype=np.intp)
         self.lower, self.upper = robot.lower[self.index], robot.upper[self.index]
         self.velocity_limit = robot.velocity_limit[self.index]
+        self._framed: dict[tuple[str, str], Kernel] = {}
 
     @property
     def n(self) -> int:
@@ -164,7 +165,7 @@ class Chain:
 
     def motor_jacobian(self, q: ArrayLike) -> Array:
         """Analytic Jacobian dM/dq_j = -1/2 S_j M, (..., 8, n)."""
-        return self._motor_jacobian(q)
+        return self.kernel("motor_jacobian")(q)
 
     def jacobian(self, q: ArrayLike, frame: str = "LOCAL_WORLD_ALIGNED", order: str = "linear_first") -> Array:
         """Geometric Jacobian, (..., 6, n). frame: LOCAL, WORLD or LOCAL_WORLD_ALIGNED; order: linear_first, angular_first or bivector."""
@@ -179,15 +180,26 @@ class Chain:
         return _ordered(self._in_frame("hessian", frame)(q), order, -3)
 
     # the kernels called most often, looked up once
-    _motor = cached_property(lambda self: self.kernel("motor"))
-    _pose = cached_property(lambda self: self.kernel("pose"))
-    _point = cached_property(lambda self: self.kernel("point"))
-    _motor_jacobian = cached_property(lambda self: self.kernel("motor_jacobian"))
+
+    @cached_property
+    def _motor(self) -> Kernel:
+        return self.kernel("motor")
+
+    @cached_property
+    def _pose(self) -> Kernel:
+        return self.kernel("pose")
+
+    @cached_property
+    def _point(self) -> Kernel:
+        return self.kernel("point")
 
     def _in_frame(self, kernel: str, frame: str) -> Kernel:
-        if frame not in FRAMES:
-            raise UnknownNameError("frame of reference", frame, FRAMES)
-        return self.kernel(f"{kernel}_{frame.lower()}")
+        found = self._framed.get((kernel, frame))
+        if found is None:
+            if frame not in FRAMES:
+                raise UnknownNameError("frame of reference", frame, FRAMES)
+            found = self._framed[kernel, frame] = self.kernel(f"{kernel}_{frame.lower()}")
+        return found
 
 
 def _ordered(rows: Array, order: str, axis: int) -> Array:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from cga_runtime.cache import cache_folder, digest, locked
-from cga_runtime.errors import CgaError, MissingExtraError, RobotFileError, StaleKernelError
+from cga_runtime.errors import CgaError, MissingExtraError, RobotFileError, StaleKernelError, UnknownNameError
 from cga_runtime.kernels import Library, Unit, library
 
 Say = Callable[[str], None]
@@ -41,6 +41,16 @@ def read_robot(file: Path) -> str:
     except ImportError as error:
         raise MissingExtraError("reading a URDF", "pinocchio (pip name: pin)", "urdf") from error
     return json.dumps(model.to_json(), sort_keys=True)
+
+
+def bundled_file(name: str) -> Path:
+    """The URDF of a bundled robot (for peers that read URDFs). Raises UnknownNameError."""
+    from cga_codegen.robots.bundled import bundled_robots
+
+    files = bundled_robots()
+    if name not in files:
+        raise UnknownNameError("bundled robot", name, files)
+    return files[name]
 
 
 def chain_unit(order: ChainOrder) -> Unit:

@@ -61,9 +61,6 @@ def fake_python(folder: Path, name: str, answer: str) -> str:
     return str(file)
 
 
-# ---- the command line
-
-
 def test_help_lists_every_command_and_installs_nothing(tmp_path: Path, run: ModuleType) -> None:
     shutil.copy(ROOT / "run", tmp_path / "run")
     answer = subprocess.run([sys.executable, tmp_path / "run", "--help"], capture_output=True, text=True, cwd="/")
@@ -78,7 +75,7 @@ def test_an_unknown_command_is_refused_before_anything_is_installed(tmp_path: Pa
     answer = subprocess.run([sys.executable, tmp_path / "run", "tests"], capture_output=True, text=True)
     assert (answer.returncode, answer.stdout) == (2, "")
     assert answer.stderr == "./run: there is no command 'tests'; accepted are test, generate, bench, shell, or none; see ./run --help\n"
-    assert sorted(os.listdir(tmp_path)) == ["pyproject.toml", "run"] or os.listdir(tmp_path) == ["run"]
+    assert os.listdir(tmp_path) == ["run"]
 
 
 @pytest.mark.parametrize(
@@ -92,13 +89,17 @@ def test_an_unknown_command_is_refused_before_anything_is_installed(tmp_path: Pa
     ],
 )
 def test_what_each_command_becomes(run: ModuleType, monkeypatch: pytest.MonkeyPatch, arguments: list[str], command: list[str]) -> None:
-    entered: list[list[str]] = []
+    class Entered(Exception):
+        """Stands for the process that the script becomes."""
+
+    def enter(command: list[str], folder: str) -> None:
+        raise Entered([command[0].replace(run.VENV + "/bin/", ""), *command[1:]])
+
     monkeypatch.setattr(os, "environ", dict(os.environ))
-    monkeypatch.setattr(run, "install", lambda: None)
-    monkeypatch.setattr(run, "call", lambda command, **streams: 0)
-    monkeypatch.setattr(run, "enter", lambda command, folder: entered.append([command[0].replace(run.VENV + "/bin/", ""), *command[1:]]))
-    assert run.main(arguments) == 0
-    assert entered == [command]
+    run.install, run.call, run.enter = (lambda: None), (lambda command, **streams: 0), enter
+    with pytest.raises(Entered) as entered:
+        run.main(arguments)
+    assert entered.value.args == (command,)
     assert os.environ["PATH"].startswith(run.VENV + "/bin:") and os.environ["VIRTUAL_ENV"] == run.VENV
 
 
@@ -124,13 +125,11 @@ def test_statuses_and_signals_pass_through(run: ModuleType) -> None:
     assert [run.call(["sh", "-c", line]) for line in ("exit 0", "exit 5", "kill -9 $$")] == [0, 5, 137]
 
 
-# ---- which Python
-
-
 def test_the_range_is_the_one_of_pyproject(run: ModuleType) -> None:
     wanted = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["requires-python"]
     assert wanted == f">=3.{run.OLDEST[1]},<3.{run.NEWEST[1] + 1}"
-    assert [run.accepted(version) for version in ((3, 10, 9), (3, 11), (3, 13, 7), (3, 14, 0), (2, 12))] == [False, True, True, False, False]
+    assert all(run.accepted(version) for version in ((3, 11), (3, 12, 4), (3, 13, 7)))
+    assert not any(run.accepted(version) for version in ((2, 12), (3, 10, 9), (3, 14, 0)))
 
 
 def test_the_running_python_comes_first(run: ModuleType) -> None:
@@ -139,25 +138,25 @@ def test_the_running_python_comes_first(run: ModuleType) -> None:
     assert os.path.realpath(executable) == os.path.realpath(sys.executable)
 
 
-@pytest.mark.parametrize("running", ["3.9.18", "3.14.0", ""])
+@pytest.mark.parametrize("running", ["3 9 18", "3 14 0", ""])
 def test_another_python_is_looked_for_on_the_path(run: ModuleType, tmp_path: Path, running: str) -> None:
     here = fake_python(tmp_path / "here", "python3", running)
     run.sys = SimpleNamespace(version_info=(3, 9, 18), _base_executable=here)
     fake_python(tmp_path / "shims", "python3.13", "")  # a shim that does not start
-    fake_python(tmp_path / "shims", "python3.11", "3.11.2")
-    wanted = fake_python(tmp_path / "more", "python3.12", "3.12.4")
+    fake_python(tmp_path / "shims", "python3.11", "3 11 2")
+    wanted = fake_python(tmp_path / "more", "python3.12", "3 12 4")
     path = os.pathsep.join(str(tmp_path / folder) for folder in ("absent", "shims", "more"))
     assert run.choose_python(path) == ((3, 12, 4), wanted)
 
 
-@pytest.mark.parametrize(("version", "sentence"), [((3, 9, 18), "is 3.9, and no python3.11, 3.12 or 3.13"), ((3, 12, 4), "sudo apt-get install python3-venv")])
+@pytest.mark.parametrize(
+    ("version", "sentence"),
+    [((3, 9, 18), "is 3.9, and no python3.11, 3.12 or 3.13 is on PATH"), ((3, 12, 4), "sudo apt-get install python3-venv")],
+)
 def test_no_python_will_do(run: ModuleType, tmp_path: Path, version: tuple[int, ...], sentence: str) -> None:
     run.sys = SimpleNamespace(version_info=version, _base_executable=fake_python(tmp_path / "here", "python3", ""))
     with pytest.raises(run.Refusal, match=sentence):
         run.choose_python(str(tmp_path))
-
-
-# ---- the stamp
 
 
 def test_every_part_counts_in_the_fingerprint(run: ModuleType) -> None:
@@ -196,12 +195,9 @@ def test_a_moved_checkout_and_a_vanished_python_ask_for_a_new_environment(run: M
     assert run.state() == "unmade"
 
 
-# ---- installing
-
-
 @pytest.fixture
 def pip(run: ModuleType) -> SimpleNamespace:
-    """Stands in for pip and venv: `commands` are pip's calls, `stamps` the stamp that each of them found, `made` counts new environments."""
+    """Stands in for pip and venv: `commands` are pip's calls, `stamps` the stamps they found, `made` counts new environments."""
     record = SimpleNamespace(commands=[], stamps=[], made=0, status=0)
 
     def make_venv(lock: int) -> None:
@@ -261,9 +257,6 @@ def test_waits_for_another_install_and_uses_its_result(run: ModuleType, pip: Sim
     thread.join(30)
     assert not thread.is_alive()
     assert (sentences, pip.commands, pip.made) == (["waiting for another ./run that is installing"], [], 0)
-
-
-# ---- pip from the package index
 
 
 @pytest.fixture

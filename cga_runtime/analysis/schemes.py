@@ -109,7 +109,9 @@ def _best(table: Sequence[dict[str, Any]], key: str) -> list[int]:
     orbits: dict[tuple[int, ...], list[float]] = {}
     for row in table:
         orbits.setdefault(tuple(row["orbit"]), []).append(row[key])
-    return list(max(orbits, key=lambda orbit: sum(orbits[orbit]) / len(orbits[orbit])))
+    means = {orbit: sum(values) / len(values) for orbit, values in orbits.items()}
+    best, _ = max(means.items(), key=lambda item: item[1])
+    return list(best)
 
 
 def _exchanged(loop: ClosedChain, scheme: Sequence[int]) -> tuple[int, ...]:

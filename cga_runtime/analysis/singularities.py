@@ -17,12 +17,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.errors import DegenerateError, SchemeError, UnknownNameError, WrongSizeError
-from cga_runtime.solve.ipopt import Ipopt
+from cga_runtime.solve.ipopt import Bounds, Program
 from cga_runtime.spaces.closed_chain import LENGTH, ClosedChain
 
 Array = NDArray[np.float64]
 
 KINDS = ("limb", "constraint", "actuation")
+# limb factors by name: where they stand in the kernel's (arm, factor) result
+FACTORS = {"f right": (0, 0), "sin q4 right": (0, 1), "f left": (1, 0), "sin q4 left": (1, 1)}
 BOX = 0.5 * pi + 0.01
 """Half-width (rad) of the box of a search without limits: it holds a zero of each limb factor, and keeps IPOPT from other branches."""
 ZERO = 1e-7
@@ -162,14 +164,16 @@ def nearest_singularity(
     rng = np.random.default_rng(seed)
     found = []
     for factor in _factors(loop, kind):
-        problem = _nearest_problem(loop, kind, factor, scheme)
+        zero = np.zeros(factor.count(",") + 1)
+        bounds = Bounds(lower, upper, zero, zero)
+        program = _nearest_program(loop, factor, scheme)
         guesses = [np.clip(at, lower, upper), *rng.uniform(lower, upper, (starts - 1, loop.n))]
-        solved = [problem.solve(guess, at, lower, upper) for guess in guesses]
-        good = [s for s in solved if s.converged and float(np.abs(s.constraints).max()) <= ZERO]
-        if good:
-            best = min(good, key=lambda s: s.objective)
-            distance = float(np.linalg.norm(best.x - at))
-            found.append(Nearest(True, kind, factor, best.x, distance, float(np.abs(best.constraints).max()), "found", within_limits))
+        for solution in (program.solve(guess, at, bounds).x for guess in guesses):
+            # judged by the compiled kernels, not by the expressions that were solved
+            value = float(np.abs(_values(loop, factor, scheme, solution)).max())
+            if value <= ZERO:
+                distance = float(np.linalg.norm(solution - at))
+                found.append(Nearest(True, kind, factor, solution, distance, value, "found", within_limits))
     if not found:
         where = "inside the joint limits" if within_limits else f"within {BOX:.2f} rad per joint"
         return Nearest(False, kind, "", at, float("inf"), float("nan"), f"none found {where}", within_limits)
@@ -182,31 +186,40 @@ def singularity_free_box(
     """min t subject to |q' - q|_inf <= t and D(q') = 0, from several starts; then a sampling check. Never certified."""
     at = _one(loop, q)
     scheme = tuple(j + 1 for j in loop.scheme(actuated)[0])
-    problem = _box_problem(loop, scheme)
+    program = _box_program(loop, scheme)
+    zero = np.zeros(1 + 2 * loop.n)
+    bounds = Bounds(
+        np.append(at - pi, 0.0), np.append(at + pi, pi), zero, np.concatenate([[0.0], np.full(2 * loop.n, np.inf)])
+    )
     rng = np.random.default_rng(seed)
-    guesses = [np.append(at, 0.1)] + [np.append(at + rng.uniform(-0.5, 0.5, loop.n), 0.5) for _ in range(starts - 1)]
-    lower, upper = np.append(at - pi, 0.0), np.append(at + pi, pi)
-    solved = [problem.solve(guess, at, lower, upper) for guess in guesses]
-    good = [s for s in solved if s.converged and abs(float(s.constraints[0])) <= ZERO]
+
+    def solve(start: Array) -> Array | None:
+        """A zero of the determinant near q in the largest norm, or None."""
+        x = program.solve(np.append(start, np.abs(start - at).max() + 0.1), at, bounds).x[:-1]
+        return x if abs(float(loop.determinant(x, scheme))) <= ZERO else None
+
+    def radius(x: Array) -> float:
+        return float(np.abs(x - at).max())
+
+    solved = [solve(at), *(solve(at + rng.uniform(-0.5, 0.5, loop.n)) for _ in range(starts - 1))]
+    good = [x for x in solved if x is not None]
     if not good:
         return SingularityFreeBox(float("nan"), at, False, 0, 0)
-    best = min(good, key=lambda s: s.objective)
-    sign = np.sign(loop.determinant(at, actuated))
+    best = min(good, key=radius)
+    sign = np.sign(loop.determinant(at, scheme))
     changes = 0
     for _ in range(ROUNDS):
-        radius = float(np.abs(best.x[:-1] - at).max())
-        inside = at + 0.999 * rng.uniform(-radius, radius, (samples, loop.n))
-        other = inside[np.sign(loop.determinant(inside, actuated)) != sign]
+        inside = at + 0.999 * rng.uniform(-radius(best), radius(best), (samples, loop.n))
+        other = inside[np.sign(loop.determinant(inside, scheme)) != sign]
         changes = len(other)
         if not changes:
             break
         # a zero lies between q0 and every such sample: the nearest one is a better start
-        start = other[np.abs(other - at).max(axis=1).argmin()]
-        again = problem.solve(np.append(start, np.abs(start - at).max()), at, lower, upper)
-        if not again.converged or abs(float(again.constraints[0])) > ZERO or again.objective >= best.objective:
+        again = solve(other[np.abs(other - at).max(axis=1).argmin()])
+        if again is None or radius(again) >= radius(best):
             break
         best = again
-    return SingularityFreeBox(float(np.abs(best.x[:-1] - at).max()), best.x[:-1], True, samples, changes)
+    return SingularityFreeBox(radius(best), best, True, samples, changes)
 
 
 def _one(loop: ClosedChain, q: ArrayLike) -> Array:
@@ -220,12 +233,20 @@ def _factors(loop: ClosedChain, kind: str) -> tuple[str, ...]:
     if kind == "actuation":
         return ("determinant",)
     require_wrist_centres(loop)
-    return ("f right, f left",) if kind == "constraint" else ("f right", "sin q4 right", "f left", "sin q4 left")
+    return ("f right, f left",) if kind == "constraint" else tuple(FACTORS)
+
+
+def _values(loop: ClosedChain, factor: str, scheme: tuple[int, ...] | None, q: Array) -> Array:
+    """What has to vanish, from the numpy view of the kernels."""
+    if scheme is not None:
+        return np.atleast_1d(loop.determinant(q, scheme))
+    limb = loop.kernel("limb_factors")(q) / np.array([LENGTH, 1.0])
+    return np.array([limb[FACTORS[name]] for name in factor.split(", ")])
 
 
 @cache
-def _nearest_problem(loop: ClosedChain, kind: str, factor: str, scheme: tuple[int, ...] | None) -> Ipopt:
-    """min |q - p|^2 with the factors of `factor` zero; p is the parameter."""
+def _nearest_program(loop: ClosedChain, factor: str, scheme: tuple[int, ...] | None) -> Program:
+    """min |q - p|^2 with the factors zero; p is the parameter."""
     import casadi
 
     q, p = casadi.SX.sym("q", loop.n), casadi.SX.sym("p", loop.n)
@@ -233,19 +254,16 @@ def _nearest_problem(loop: ClosedChain, kind: str, factor: str, scheme: tuple[in
         zero = loop.symbolic_determinant(q, scheme)
     else:
         limb = loop.kernel("limb_factors").symbolic(q)
-        named = {"f right": limb[0, 0] / LENGTH, "sin q4 right": limb[0, 1], "f left": limb[1, 0] / LENGTH, "sin q4 left": limb[1, 1]}
-        zero = casadi.vertcat(*[named[name] for name in factor.split(", ")])
-    return Ipopt(f"nearest {factor}", q, p, casadi.sumsqr(q - p), zero, np.zeros(zero.numel()), np.zeros(zero.numel()))
+        scales = (LENGTH, 1.0)
+        zero = casadi.vertcat(*[limb[arm, k] / scales[k] for arm, k in (FACTORS[name] for name in factor.split(", "))])
+    return Program("nearest", q, p, casadi.sumsqr(q - p), zero)
 
 
 @cache
-def _box_problem(loop: ClosedChain, scheme: tuple[int, ...]) -> Ipopt:
+def _box_program(loop: ClosedChain, scheme: tuple[int, ...]) -> Program:
     """min t over (q, t) with D(q) = 0 and -t <= q - p <= t."""
     import casadi
 
     x, p = casadi.SX.sym("x", loop.n + 1), casadi.SX.sym("p", loop.n)
     q, t = x[: loop.n], x[loop.n]
-    g = casadi.vertcat(loop.symbolic_determinant(q, scheme), t - (q - p), t + (q - p))
-    low = np.zeros(1 + 2 * loop.n)
-    high = np.concatenate([[0.0], np.full(2 * loop.n, np.inf)])
-    return Ipopt(f"box {scheme}", x, p, t, g, low, high)
+    return Program("box", x, p, t, casadi.vertcat(loop.symbolic_determinant(q, scheme), t - (q - p), t + (q - p)))

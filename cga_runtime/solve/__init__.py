@@ -1,1 +1,1 @@
-"""Solvers: reaching by IPOPT."""
+"""Solvers: reaching by nonlinear programming."""

@@ -47,10 +47,9 @@ def generate_robot(
     record = robot_record(model, chains, loops)
     files = {record["description"]: json.dumps(model.to_json(), indent=1, sort_keys=True) + "\n"}
     units: list[UnitRecord] = []
-    subjects = [lambda frame=frame: chain_unit(model.chain(frame)) for frame in chains]
-    subjects += [lambda pair=pair: loop_unit(Loop(loop_name(*pair), model.chain(pair[0]), model.chain(pair[1]))) for pair in loops]
-    for make in subjects:
-        texts, unit = make()
+    loop_of = {pair: Loop(loop_name(*pair), model.chain(pair[0]), model.chain(pair[1])) for pair in loops}
+    made = [chain_unit(model.chain(frame)) for frame in chains] + [loop_unit(loop) for loop in loop_of.values()]
+    for texts, unit in made:
         say(f"{unit.title}: {len(unit.kernels)} kernels, {sum(k.counts.total for k in unit.kernels)} operations")
         files.update(texts)
         units.append(unit)

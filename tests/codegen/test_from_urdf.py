@@ -9,7 +9,7 @@ import pytest
 
 from cga_codegen.robots.bundled import bundled_robots
 from cga_codegen.robots.from_urdf import load_urdf
-from cga_codegen.robots.model import RobotModel
+from cga_codegen.robots.model import Inertia, RobotModel
 
 LIMIT = '<limit lower="-1" upper="1.5" velocity="3" effort="4"/>'
 TWO_LINKS = '<link name="a"/><link name="b"/>'
@@ -152,6 +152,26 @@ def test_a_joint_and_a_link_may_share_a_name():
     joint_later = load_urdf(urdf(links + joint(name="q") + joint(name="a", parent="b", child="c")))
     assert [f.name for f in joint_later.frames] == ["universe", "a", "q", "b", "a:joint", "c"]
     assert (joint_later.frame("a").joint, joint_later.frame("a:joint").joint) == (-1, 1)
+
+
+def test_a_point_mass_is_an_inertia():
+    """A mass without extent counts; two of them, 2 kg at 3 m and 1 kg at 0 m along x, have I = 2 * 1 / 3 * 3^2 = 6 across x."""
+
+    def point(name, mass, x):
+        tensor = '<inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>'
+        return f'<link name="{name}"><inertial><origin xyz="{x} 0 0"/><mass value="{mass}"/>{tensor}</inertial></link>'
+
+    one = load_urdf(urdf('<link name="a"/>' + point("b", 2, 3) + joint()))
+    assert one.joints[0].inertia == Inertia(2.0, (3.0, 0.0, 0.0), (0.0,) * 6)
+    fixed = joint(name="k", parent="b", child="c", kind="fixed", inside="")
+    two = load_urdf(urdf('<link name="a"/>' + point("b", 2, 3) + point("c", 1, 0) + joint() + fixed))
+    assert two.joints[0].inertia == Inertia(3.0, (2.0, 0.0, 0.0), (0.0, 0.0, 0.0, 6.0, 0.0, 6.0))
+
+
+def test_a_moment_of_inertia_may_be_negative_by_rounding_only():
+    """-5.4e-20 stands in a widely used file; -1 is refused (test_urdf_refusals.py)."""
+    body = '<link name="b"><inertial><mass value="1"/><inertia ixx="-5.4e-20" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>'
+    assert load_urdf(urdf('<link name="a"/>' + body + joint())).joints[0].inertia.tensor[0] == -5.4e-20
 
 
 def test_a_robot_without_joints_is_a_robot():

@@ -7,7 +7,7 @@ A table coefficient of +-1 becomes a sign, never a multiplication. No coefficien
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,7 +33,7 @@ class Multivector:
     """An element with the components of `type`, in its order (ascending masks). Raises AlgebraError when the lengths differ."""
 
     type: BladeType
-    coefficients: tuple[Any, ...]
+    coefficients: Sequence[Any]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "coefficients", tuple(self.coefficients))

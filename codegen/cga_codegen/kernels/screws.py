@@ -16,6 +16,8 @@ from cga_codegen.kernels.vectors import Scalar, Vector, combine, cross, dot, min
 from cga_codegen.robots.model import Chain, Placement, Rows3
 
 Axes = list[list[Scalar]]
+Triple = tuple[int, int, int]
+Triples = dict[Triple, Scalar]
 
 
 @dataclass(frozen=True)
@@ -160,12 +162,13 @@ def inward(chain: Chain, c: Vector, s: Vector) -> Configuration:
     return Configuration(prismatic, seen.axes[::-1], seen.points[::-1], seen.rotation, seen.position)
 
 
-def _split_in_threes() -> tuple[tuple[tuple[int, ...], tuple[int, ...], int], ...]:
+def _split_in_threes() -> list[tuple[Triple, Triple, int]]:
     """The 20 ways to give three of six columns to the upper rows, with the sign of Laplace's expansion."""
-    return tuple(
-        (chosen, tuple(i for i in range(6) if i not in chosen), 1 if (sum(chosen) - 3) % 2 == 0 else -1)
-        for chosen in combinations(range(6), 3)
-    )
+    splits = []
+    for chosen in combinations(range(6), 3):
+        first, second, third = (i for i in range(6) if i not in chosen)
+        splits.append((chosen, (first, second, third), 1 if (sum(chosen) - 3) % 2 == 0 else -1))
+    return splits
 
 
 def _halves(screws: Vector) -> tuple[Axes, Axes]:
@@ -180,7 +183,7 @@ def bracket(screws: Vector) -> list[Scalar]:
     """
     upper, lower = _halves(screws)
 
-    def triples(half: Axes) -> dict[tuple[int, ...], Scalar]:
+    def triples(half: Axes) -> Triples:
         pairs = {(i, j): cross(half[i], half[j]) for i, j in combinations(range(6), 2)}
         return {(i, j, k): dot(pairs[i, j], half[k]) for i, j, k in combinations(range(6), 3)}
 

@@ -168,7 +168,7 @@ class _Check:
         inertia = self.only(inertial, "inertia", label)
         tensor = {k: self.number(inertia, k, f"{label}: inertia", below=LARGEST) for k in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
         for key in ("ixx", "iyy", "izz"):
-            if tensor[key] < 0.0:
+            if tensor[key] < -1e-12:  # published files hold rounding errors such as -5e-20; a gram at a millimetre has 1e-9
                 raise BadNumberError(f"{label}: {key} is {tensor[key]:g}; zero or a positive number is needed")
         return Body(mass, *self.origin(inertial, label), tuple(tensor.values()))
 

@@ -1,0 +1,131 @@
+"""Section "schemes": the atlas of all actuation schemes, exact classes and conditioning (paper C, section 5.2.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cga_runtime.analysis.schemes import atlas, conditioning, summary
+from cga_runtime.report.context import GENERIC_POSE, Context
+from cga_runtime.report.figures import CLASS_STYLE, Figure, figure, heat_map, label
+
+Array = NDArray[np.float64]
+
+EXAMPLE = (1, 2, 3, 7)
+"""The paper's own admissible example: singular wherever q1 = q6."""
+
+
+def section(context: Context) -> dict[str, Any]:
+    """Counts of the atlas and its table, one row a scheme."""
+    table = atlas(context.loop, context.sizes.samples, context.seed)
+    return {**summary(table), "samples": context.sizes.samples, "table": table}
+
+
+def scheme_name(actuated: Sequence[int]) -> str:
+    """Joint numbers of a scheme, e.g. "1 3 9 10"."""
+    return " ".join(str(j) for j in actuated)
+
+
+def orbits(table: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The row of each orbit's representative, best median first."""
+    return sorted((row for row in table if row["actuated"] == row["orbit"]), key=lambda row: -float(row["mu_median"]))
+
+
+def figures(context: Context) -> dict[str, Figure]:
+    """Quality of each orbit (scatter and ranking), which joints to actuate, and mu of the best scheme and of the example over (q1, q6)."""
+    data = context.data["schemes"]
+    best = tuple(data["best_median"])
+    return {
+        "schemes-scatter": _scatter(orbits(data["table"])),
+        "schemes-ranking": _ranking([row for row in orbits(data["table"]) if row["class"] != "never"]),
+        "schemes-pairs": _pairs(context, data["table"]),
+        "schemes-slice-best": _slice(context, best),
+        "schemes-slice-example": _slice(context, EXAMPLE),
+    }
+
+
+def _hover(row: dict[str, Any]) -> str:
+    lines = [f"<b>{scheme_name(row['actuated'])}</b>", CLASS_STYLE[row["class"]][0], row["reason"]]
+    lines.append(f"median {row['mu_median']:.3f}, 5 % quantile {row['mu_p05']:.3f}, below 0.01 in {100 * row['mu_below_001']:.1f} %")
+    return "<br>".join(line for line in lines if line)
+
+
+def _scatter(rows: Sequence[dict[str, Any]]) -> Figure:
+    traces = []
+    for kind, (words, colour, symbol) in CLASS_STYLE.items():
+        chosen = [row for row in rows if row["class"] == kind]
+        traces.append(
+            {
+                "type": "scatter",
+                "mode": "markers",
+                "name": f"{words} ({len(chosen)})",
+                "x": [row["mu_median"] for row in chosen],
+                "y": [row["mu_p05"] for row in chosen],
+                "text": [_hover(row) for row in chosen],
+                "hovertemplate": "%{text}<extra></extra>",
+                "marker": {"color": colour, "symbol": symbol, "size": 9, "opacity": 0.85, "line": {"color": "var(--card)", "width": 1}},
+            }
+        )
+    named = {id(row): row for key in ("mu_median", "mu_p05") for row in sorted(rows, key=lambda r: -float(r[key]))[:3]}
+    marks = [
+        {"x": row["mu_median"], "y": row["mu_p05"], "text": scheme_name(row["actuated"]), "showarrow": False, "yshift": 13, "font": {"size": 11}}
+        for row in named.values()
+    ]
+    axes = {"xaxis": {"title": {"text": "μ, median over poses"}, "rangemode": "tozero"}, "yaxis": {"title": {"text": "μ, 5 % quantile"}, "rangemode": "tozero"}}
+    return figure(traces, {**axes, "annotations": marks})
+
+
+def _ranking(rows: Sequence[dict[str, Any]]) -> Figure:
+    names = [scheme_name(row["actuated"]) for row in rows]
+    spans: dict[str, list[Any]] = {"x": [], "y": []}
+    for name, row in zip(names, rows, strict=True):
+        spans["x"] += [name, name, None]
+        spans["y"] += [row["mu_p05"], row["mu_median"], None]
+    line = {"color": "var(--faint)", "width": 2}
+    traces = [{"type": "scatter", "mode": "lines", **spans, "line": line, "showlegend": False, "hoverinfo": "skip"}]
+    for kind, (words, colour, symbol) in CLASS_STYLE.items():
+        chosen = [row for row in rows if row["class"] == kind]
+        if not chosen:
+            continue
+        x, text = [scheme_name(row["actuated"]) for row in chosen], [_hover(row) for row in chosen]
+        for key, part, style in (("mu_median", "median", symbol), ("mu_p05", "5 % quantile", f"{symbol}-open")):
+            marker = {"color": colour, "symbol": style, "size": 8 if key == "mu_median" else 6}
+            y = [row[key] for row in chosen]
+            common = {"type": "scatter", "mode": "markers", "hovertemplate": "%{text}<extra></extra>", "name": f"{words}: {part}"}
+            traces.append({**common, "x": x, "y": y, "text": text, "marker": marker})
+    axis = {"title": {"text": "actuated joints (one scheme of each orbit), best median first"}, "tickangle": -90, "tickfont": {"size": 9}, "type": "category"}
+    axis |= {"categoryorder": "array", "categoryarray": names, "tickmode": "linear"}
+    return figure(traces, {"xaxis": axis, "yaxis": {"title": {"text": "μ"}, "rangemode": "tozero"}, "height": 420})
+
+
+def _pairs(context: Context, table: Sequence[dict[str, Any]]) -> Figure:
+    """Best median mu among the schemes that actuate both joints (diagonal: that actuate the joint)."""
+    n = context.loop.n
+    z = np.zeros((n, n))
+    for i in range(1, n + 1):
+        for j in range(1, n + 1):
+            z[i - 1, j - 1] = max(row["mu_median"] for row in table if i in row["actuated"] and j in row["actuated"])
+    numbers = np.arange(1, n + 1)
+    trace, layout = heat_map(numbers, numbers, z, x_title="joint", y_title="joint", z_title="best median μ")
+    names = [f"{j} {label(name)}" for j, name in zip(numbers, context.loop.joint_names, strict=True)]
+    trace |= {"customdata": [[[a, b] for a in names] for b in names]}
+    trace["hovertemplate"] = "%{customdata[0]}<br>%{customdata[1]}<br>best median μ %{z:.3f}<extra></extra>"
+    ticks = {"tickmode": "linear", "dtick": 1}
+    layout = {"xaxis": {**layout["xaxis"], **ticks}, "yaxis": {**layout["yaxis"], **ticks, "autorange": "reversed"}}
+    return figure([trace], {**layout, "title": {"text": "Which joints to actuate together", "font": {"size": 14}}})
+
+
+def _slice(context: Context, scheme: tuple[int, ...]) -> Figure:
+    """mu of a scheme over (q1, q6), the other joints at a mirror-symmetric pose."""
+    loop, half = context.loop, context.loop.right.n
+    right = np.array(GENERIC_POSE[:half])
+    pitch = [np.linspace(loop.lower[j], loop.upper[j], context.sizes.grid) for j in (0, half)]
+    q = np.empty((len(pitch[1]), len(pitch[0]), loop.n))
+    q[...] = np.concatenate([right, context.mirror * right])
+    q[..., 0], q[..., half] = np.meshgrid(*pitch)
+    mu = conditioning(loop, q, [scheme])[..., 0]
+    trace, layout = heat_map(*pitch, mu, x_title="q1 right ShoulderPitch (rad)", y_title="q6 left ShoulderPitch (rad)", z_title="μ", z_max=0.5)
+    return figure([trace], {**layout, "title": {"text": f"Actuated {scheme_name(scheme)}", "font": {"size": 14}}})
