@@ -112,7 +112,9 @@ def generate(
     if prove:
         workshop.prove(say)
     if folder is None:
-        raise WrongSizeError("generate: say where with -o DIR")
+        if prove and file is None:
+            return
+        raise WrongSizeError("generate: say where to write with -o DIR")
     if file is None:
         workshop.generate_checked_in(folder, say)
     else:

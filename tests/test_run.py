@@ -205,7 +205,7 @@ def pip(run: ModuleType) -> SimpleNamespace:
         shutil.rmtree(run.VENV, ignore_errors=True)
         make_fake_venv(run, run.UNFINISHED)
 
-    def call(command: list[str], lock: int | None = None) -> int:
+    def call(command: list[str], locks: tuple[int, ...]) -> int:
         record.commands.append(command[1:])
         record.stamps.append(Path(run.STAMP).read_text().strip())
         if record.status == "interrupt":

@@ -1,8 +1,8 @@
 """Singularities of two universal-spherical arms that hold one object: where they are, and how far away (paper C, section 5).
 
-Limb singularities: f = 0 (the S-joint on axis 1) or sin q4 = 0, per arm. Constraint singularity: f = 0 in both arms, eq. (19) for arms whose
-first axes are collinear. Actuation singularities of a scheme: its determinant vanishes. Distances are joint-space norms (rad); those
-found by optimisation are upper bounds ("not certified").
+Limb singularities: f = 0 (the S-joint on axis 1) or sin q4 = 0, per arm. Constraint singularity: f = 0 in both arms, eq. (19) for arms
+whose first axes are collinear. Actuation singularities of a scheme: its determinant vanishes. Distances are joint-space norms (rad);
+those found by optimisation are upper bounds ("not certified").
 """
 
 from __future__ import annotations
@@ -152,7 +152,7 @@ def nearest_singularity(
     """min |q' - q|^2 over a factor's zeros, each factor of the kind solved separately, the nearest taken.
 
     within_limits: search inside the joint limits, else in the box |q' - q| <= pi/2 + 0.01 per joint. The first start is q, others are
-    random in the region. Raises UnknownNameError for another kind, SchemeError if kind "actuation" comes without a scheme (or another with one).
+    random in the region. Raises UnknownNameError for another kind, SchemeError if "actuation" comes without a scheme or another with one.
     """
     if kind not in KINDS:
         raise UnknownNameError("kind of singularity", kind, KINDS)
