@@ -15,12 +15,22 @@ from pathlib import Path
 from cga_runtime.errors import CacheError, KernelWarning
 
 
-def cache_folder() -> Path:
-    """$XDG_CACHE_HOME/cga or the platform's cache folder, mode 700.
+def cache_folder(part: str) -> Path:
+    """The folder `part` of $XDG_CACHE_HOME/cga or of the platform's cache folder, mode 700.
 
-    Raises CacheError if the folder belongs to another user or others may write to it: compiled code is never loaded from there.
-    A folder that cannot be made or written is replaced by a private temporary one for this process, with one warning.
+    Raises CacheError if the cache belongs to another user or others may write to it: compiled code is never loaded from there.
+    A cache that cannot be made or written is replaced by a private temporary one for this process, with one warning.
     """
+    root = _root()
+    folder = root / part
+    try:
+        folder.mkdir(exist_ok=True, mode=0o700)
+    except OSError as error:
+        raise CacheError(f"cannot make the folder {folder} ({error.strerror}); delete {root} or set XDG_CACHE_HOME") from error
+    return folder
+
+
+def _root() -> Path:
     folder = _location()
     try:
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)

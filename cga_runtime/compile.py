@@ -17,11 +17,12 @@ from functools import cache
 from pathlib import Path
 
 from cga_runtime.cache import cache_folder, digest, locked, write_atomic
-from cga_runtime.errors import CompilerError, KernelWarning
+from cga_runtime.errors import CacheError, CompilerError, KernelWarning
 
 FLAGS = ("-std=c99", "-O2", "-march=native", "-ffp-contract=fast", "-fPIC", "-shared")
 """No -ffast-math: it gains at most 8 % and gives up NaN and signed zeros."""
 TIME_LIMIT = 300.0
+_ADVICE = "set CC to another compiler, or CGA_NO_COMPILER=1 to run the Python text"
 
 
 @dataclass(frozen=True)
@@ -38,9 +39,12 @@ def find_compiler(choice: str | None) -> Compiler | None:
 
     Raises CompilerError if $CC is set and does not answer.
     """
-    if choice:
-        command = tuple(shlex.split(choice))
-        version = _version(command) if shutil.which(command[0]) else None
+    if choice is not None:
+        try:
+            command = tuple(shlex.split(choice))
+        except ValueError:  # an open quotation mark
+            command = ()
+        version = _version(command) if command and shutil.which(command[0]) else None
         if version is None:
             raise CompilerError(f"CC={choice!r} does not answer `--version`; unset CC, or name a working C compiler")
         return Compiler(command, version)
@@ -56,7 +60,7 @@ def find_compiler(choice: str | None) -> Compiler | None:
 
 def _version(command: tuple[str, ...]) -> str | None:
     try:
-        done = subprocess.run([*command, "--version"], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL)
+        done = subprocess.run([*command, "--version"], capture_output=True, text=True, errors="replace", timeout=60, stdin=subprocess.DEVNULL)
     except (OSError, subprocess.TimeoutExpired):
         return None
     return done.stdout.splitlines()[0] if done.returncode == 0 and done.stdout else None
@@ -87,13 +91,17 @@ def compile_library(name: str, source: str) -> ctypes.CDLL | None:
         _warn_once("no C compiler was found (set CC, install gcc or clang, or pip install 'cga-robotics[compiler]')")
         return None
     key = digest("\0".join([source, *FLAGS, *compiler.command, compiler.version, cpu()]).encode())[:32]
-    folder = cache_folder() / "libraries"
-    folder.mkdir(mode=0o700, exist_ok=True)
-    library = folder / f"{name}-{key}.so"
-    with locked(library):
-        if not _intact(library):
-            _build(compiler, source, library)
-    return ctypes.CDLL(str(library))
+    library = cache_folder("libraries") / f"{name}-{key}.so"
+    try:
+        with locked(library):
+            if not _intact(library):
+                _build(compiler, source, library)
+    except OSError as error:
+        raise CacheError(f"cannot write {error.filename or library}: {error.strerror}; set XDG_CACHE_HOME to another folder") from error
+    try:
+        return ctypes.CDLL(str(library))
+    except OSError as error:
+        raise CompilerError(f"`{shlex.join(compiler.command)}` made a library that does not load ({error}); {_ADVICE}") from error
 
 
 @cache
@@ -119,15 +127,17 @@ def _build(compiler: Compiler, source: str, library: Path) -> None:
         c_file.write_text(source, encoding="utf-8")
         command = [*compiler.command, *FLAGS, str(c_file), "-o", str(output), "-lm"]
         try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT, stdin=subprocess.DEVNULL)
+            done = subprocess.run(
+                command, capture_output=True, text=True, errors="replace", timeout=TIME_LIMIT, stdin=subprocess.DEVNULL
+            )
         except subprocess.TimeoutExpired:
             raise CompilerError(f"`{shlex.join(command)}` did not finish in {TIME_LIMIT:.0f} s") from None
         except OSError as error:
             raise CompilerError(f"`{shlex.join(command)}` did not start: {error.strerror}") from error
-        if done.returncode != 0:
+        if done.returncode != 0 or not output.is_file():
             tail = (done.stderr or done.stdout).strip()[-800:]
-            advice = "set CC to another compiler, or CGA_NO_COMPILER=1 to run the Python text"
-            raise CompilerError(f"`{shlex.join(command)}` failed ({done.returncode}); {advice}:\n{tail}")
+            outcome = f"failed ({done.returncode})" if done.returncode != 0 else "wrote no library"
+            raise CompilerError(f"`{shlex.join(command)}` {outcome}; {_ADVICE}:\n{tail}")
         binary = output.read_bytes()
         # the library first: a run killed in between leaves it unsealed, and the next run makes it again
         write_atomic(library, binary)

@@ -218,7 +218,7 @@ class Sphere:
         lengths = norm(edges)
         if (np.abs(np.linalg.det(edges / lengths[..., None])) <= FLAT).any():
             raise DegenerateError("sphere: its four points lie in one plane")
-        y = np.linalg.solve(edges, 0.5 * (lengths * lengths)[..., None])[..., 0]
+        y = np.asarray(np.linalg.solve(edges, 0.5 * (lengths * lengths)[..., None])[..., 0], dtype=np.float64)
         return cls(x + y, norm(y))
 
     def __post_init__(self) -> None:

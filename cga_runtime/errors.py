@@ -50,7 +50,7 @@ class CompilerError(CgaError, RuntimeError):
 
 
 class CacheError(CgaError, RuntimeError):
-    """The cache folder cannot be trusted (it belongs to someone else, or others may write to it)."""
+    """The cache folder cannot be trusted (it belongs to someone else, or others may write to it), or not be written."""
 
 
 class MissingExtraError(CgaError, ImportError):

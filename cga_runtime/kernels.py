@@ -51,18 +51,22 @@ def generated_folder() -> Path:
 
 
 def numeric(values: ArrayLike, what: str) -> Array:
-    """A float64 array; WrongSizeError if it is not numeric."""
+    """A float64 array; WrongSizeError if it is not numeric (text that looks like numbers and complex numbers are not)."""
     try:
-        return np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+        array = np.asarray(values)
+        if array.dtype.kind in "biufO":
+            return np.asarray(array, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError, NotImplementedError) as error:
         raise WrongSizeError(f"{what}: not an array of numbers ({error})") from None
+    raise WrongSizeError(f"{what}: an array of {array.dtype} given, real numbers needed")
 
 
 def finite(values: ArrayLike, what: str) -> Array:
     """A float64 array; WrongSizeError if it is not numeric, NotFiniteError if it holds NaN or infinity."""
     array = numeric(values, what)
     if not np.isfinite(array).all():
-        raise NotFiniteError(f"{what} holds NaN or infinity: {np.array2string(array.ravel()[:8], precision=4)}")
+        first = tuple(int(k) for k in np.argwhere(~np.isfinite(array))[0])
+        raise NotFiniteError(f"{what} holds NaN or infinity: {array[first]} at index {first} of shape {array.shape}")
     return array
 
 
@@ -74,15 +78,19 @@ class Library:
         listing = folder / "manifest.json"
         try:
             self.manifest: dict[str, Any] = json.loads(listing.read_text(encoding="utf-8"))
+            if not isinstance(self.manifest, dict) or not {"format", "files", "units", "robots"} <= self.manifest.keys():
+                raise ValueError("unfinished, or a file of something else")
             if self.manifest["format"] != FORMAT:
                 raise ValueError(f"its format is {self.manifest['format']}, this version reads {FORMAT}")
         except OSError as error:
-            raise StaleKernelError(f"cannot read {listing}: {error.strerror}; run `cga generate` for this folder") from None
-        except (ValueError, KeyError, TypeError) as error:
-            raise StaleKernelError(f"{listing} is not a manifest of generated kernels ({error}); run {self._remedy()}") from None
+            raise StaleKernelError(f"cannot read {listing}: {error.strerror}; {self._remedy()}") from None
+        except ValueError as error:
+            raise StaleKernelError(f"{listing} is not a manifest of generated kernels ({error}); {self._remedy()}") from None
 
     def _remedy(self) -> str:
-        return "`./run generate`" if self.folder.name == "generated" else "`cga generate` again for this folder"
+        here = Path(__file__).resolve().parent
+        carried = {here.parent / "generated": "run `./run generate`", here / "_generated": "reinstall cga-robotics"}
+        return carried.get(self.folder.resolve(), f"run `cga generate FILE -o {self.folder}`")
 
     def read(self, path: str) -> str:
         """A file's text. StaleKernelError if it is missing or does not match its digest."""
@@ -90,9 +98,9 @@ class Library:
         try:
             content = file.read_bytes()
         except OSError as error:
-            raise StaleKernelError(f"cannot read {file}: {error.strerror}; run {self._remedy()}") from None
+            raise StaleKernelError(f"cannot read {file}: {error.strerror}; {self._remedy()}") from None
         if digest(content) != self.manifest["files"].get(path):
-            raise StaleKernelError(f"{file} was edited by hand or is stale: it does not match manifest.json; run {self._remedy()}")
+            raise StaleKernelError(f"{file} was edited by hand or is stale: it does not match manifest.json; {self._remedy()}")
         return content.decode()
 
     @cache  # noqa: B019  a library lives as long as the process
@@ -178,9 +186,10 @@ class Kernel:
         if self._entries is None:
             for name, array in zip(self.inputs, arrays, strict=True):
                 finite(array, name)
-            flat = [np.moveaxis(a.reshape(*batch, -1), -1, 0) for a in arrays]
+            # sizes are written out: -1 has no meaning where the batch is empty
+            flat = [np.moveaxis(a.reshape(*batch, math.prod(shape)), -1, 0) for a, shape in zip(arrays, self.inputs.values(), strict=True)]
             results = self.unit.text[self.name](*self._body_inputs(flat, np))
-            out.reshape(*batch, -1)[...] = np.stack(np.broadcast_arrays(*results, np.empty(batch))[:-1], axis=-1)
+            out.reshape(*batch, math.prod(self.shape))[...] = np.stack(np.broadcast_arrays(*results, np.empty(batch))[:-1], axis=-1)
             return out
         single, many = self._entries
         # the interface dictionary is the cheapest way to an address that numpy offers
@@ -238,10 +247,16 @@ class Kernel:
         return [[joint(name, j) for j in range(len(kinds))] if name in _OF_ANGLE else named[name] for name in self.body]
 
     def symbolic(self, *values: Any) -> Any:
-        """The kernel at casadi SX inputs (q a vector, others in their shape), as an SX matrix of its shape (3-D results: (6, n*n))."""
+        """The kernel at casadi SX inputs (q a vector, others in their shape), as an SX matrix of its shape (3-D results: (6, n*n)).
+
+        Raises WrongSizeError.
+        """
         import casadi
 
         given = [casadi.SX(value) for value in values]
+        sizes = {name: math.prod(shape) for name, shape in self.inputs.items()}
+        if [x.numel() for x in given] != list(sizes.values()):
+            raise WrongSizeError(f"{self.name} takes {sizes} numbers; {[x.numel() for x in given]} given")
         flat = [x.T.elements() if len(shape) > 1 else x.elements() for x, shape in zip(given, self.inputs.values(), strict=True)]
         results = casadi.vertcat(*[casadi.SX(r) for r in self.unit.text[self.name](*self._body_inputs(flat, casadi))])
         rows = self.shape[0]

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from cga_runtime.cache import cache_folder, digest, locked
-from cga_runtime.errors import CgaError, MissingExtraError, RobotFileError, StaleKernelError, UnknownNameError
+from cga_runtime.errors import CacheError, CgaError, MissingExtraError, RobotFileError, StaleKernelError, UnknownNameError
 from cga_runtime.kernels import Library, Unit, library
 
 Say = Callable[[str], None]
@@ -130,20 +130,24 @@ def _unit(key: dict[str, Any], subject: Callable[[], Any]) -> Unit:
     """The cached unit of a key, generated now if it is not there or damaged."""
     from cga_codegen import __version__
     from cga_codegen.catalogue import CHAIN_KERNELS, LOOP_KERNELS, chain_unit, loop_unit
-    from cga_codegen.emit.manifest import manifest_text, write_folder
+    from cga_codegen.emit.manifest import GeneratedFolderError, manifest_text, write_folder
+    from cga_codegen.robots.model import ModelError
 
     kernels = [f"{k.name} {k.function.__module__}" for k in (*CHAIN_KERNELS, *LOOP_KERNELS)]
     name = digest(json.dumps([__version__, _generator_digest(), kernels, key], sort_keys=True).encode())[:32]
-    root = cache_folder() / "generated"
-    root.mkdir(mode=0o700, exist_ok=True)
-    folder = root / name
-    with locked(folder):
-        if not _complete(folder):
-            made = subject()
-            texts, record = loop_unit(made) if "right" in key else chain_unit(made)
-            if folder.exists():  # damaged: the listing below replaces every file
-                (folder / "manifest.json").write_text("{}", encoding="utf-8")
-            write_folder(folder, texts, manifest_text(__version__, texts, [record], {}))
+    folder = cache_folder("generated") / name
+    try:
+        with locked(folder):
+            if not _complete(folder):
+                made = subject()
+                texts, record = loop_unit(made) if "right" in key else chain_unit(made)
+                if folder.exists():  # damaged: the listing below replaces every file
+                    (folder / "manifest.json").write_text("{}", encoding="utf-8")
+                write_folder(folder, texts, manifest_text(__version__, texts, [record], {}))
+    except ModelError as error:
+        raise RobotFileError(str(error)) from error
+    except GeneratedFolderError as error:
+        raise CacheError(str(error)) from error
     opened = library(folder)
     return opened.unit(next(iter(opened.manifest["units"])))
 

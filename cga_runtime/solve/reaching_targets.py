@@ -1,8 +1,8 @@
 """What a point must satisfy to lie on a primitive, as inner products in CGA, and how far from it a point is, in metres.
 
-Every primitive is an intersection of planes and spheres s, and P lies on s exactly where P.s = 0 (paper A, eq. 1). A plane is the dual vector
-s = n + offset ei, a sphere s = (c + e0 + (c^2 - r^2)/2 ei) / r, scaled so that P.s is a length near the primitive. A line is two planes square to
-each other, a point three: independent gradients, whereas P ^ X = 0 would have dependent rows.
+Every primitive is an intersection of planes and spheres s, and P lies on s exactly where P.s = 0 (paper A, section 2). A plane is the dual
+vector s = n + offset ei, a sphere s = (e0 + c + (c^2 - r^2)/2 ei) / r, scaled so that P.s is a length near the primitive. A line is two
+planes square to each other, a point three: independent gradients, whereas P ^ X = 0 would have dependent rows.
 """
 
 from __future__ import annotations
@@ -88,7 +88,8 @@ KINDS: tuple[type, ...] = tuple(_TABLE)
 
 
 def duals(target: Target) -> Array:
-    """The dual vectors (e0, e1, e2, e3, ei) of the planes and spheres that make up a primitive, (k, 5); k = 3 point, 2 line and circle, else 1."""
+    """Dual vectors (e0, e1, e2, e3, ei) of the planes and spheres that make up a primitive, (k, 5): k = 3 for a point, 2 for a line or
+    circle, 1 for a plane or sphere."""
     return np.array(_TABLE[type(target)][0](target))
 
 

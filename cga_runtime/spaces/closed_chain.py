@@ -7,6 +7,7 @@ common root frame. Twists and wrenches are about that frame's origin.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import index
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -104,11 +105,11 @@ class ClosedChain:
     def scheme(self, actuated: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
         """Checked actuated and passive joints of a scheme, 0-based and ascending. Raises SchemeError."""
         try:
-            joints = tuple(int(j) for j in actuated)
-        except (TypeError, ValueError):
+            joints = tuple(index(j) for j in actuated)  # integers of any kind; 4.5 and "4" are not rounded or read
+        except TypeError:
             raise SchemeError(f"scheme {actuated!r}: {self.actuators} joint numbers are needed") from None
         if len(set(joints)) != self.actuators or len(joints) != self.actuators or not all(1 <= j <= self.n for j in joints):
-            raise SchemeError(f"scheme {tuple(actuated)}: {self.actuators} distinct joint numbers from 1 to {self.n} are needed")
+            raise SchemeError(f"scheme {joints}: {self.actuators} distinct joint numbers from 1 to {self.n} are needed")
         chosen = tuple(sorted(j - 1 for j in joints))
         return chosen, tuple(j for j in range(self.n) if j not in chosen)
 

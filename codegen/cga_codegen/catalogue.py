@@ -21,7 +21,7 @@ from cga_codegen.emit.print_c import print_file as print_c_file
 from cga_codegen.emit.print_python import print_function, print_module
 from cga_codegen.kernels import closed_chain, kinematics, screws, versors
 from cga_codegen.kernels.closed_chain import Loop
-from cga_codegen.robots.model import Chain
+from cga_codegen.robots.model import Chain, ModelError
 
 Subject = Chain | Loop | None
 Shape = Callable[[int], tuple[int, ...]]
@@ -81,9 +81,9 @@ INPUTS: dict[str, Shape] = {
 
 
 def identifier(name: str) -> str:
-    """A C and file-system safe form of a name; names that differ stay different (other characters become _x2f_ and the like)."""
-    safe = re.sub(r"[^A-Za-z0-9_]", lambda found: f"_x{ord(found.group()):x}_", name)
-    return safe if safe and not safe[0].isdigit() else f"_{safe}"
+    """A C, comment and file-system safe form of a name; names that differ stay different (other characters become _x2f_ and the like,
+    as do a digit in front and an underscore that could be taken for the beginning of such a mark)."""
+    return re.sub(r"[^A-Za-z0-9_]|^[0-9]|_(?=x)|^$", lambda found: f"_x{ord(found.group() or chr(0)):x}_", name)
 
 
 def _joints(subject: Subject) -> Sequence[Any]:
@@ -157,15 +157,17 @@ def unit(path: str, title: str, subject: Subject, kernels: Iterable[Kernel]) -> 
 
 
 def chain_unit(chain: Chain) -> tuple[dict[str, str], UnitRecord]:
-    """All kernels of one chain, under robots/<robot>/<chain>."""
-    path = f"robots/{identifier(chain.robot)}/{identifier(chain.name)}"
-    return unit(path, f"Kinematics of the chain {chain.name} of {chain.robot}", chain, CHAIN_KERNELS)
+    """All kernels of one chain, under robots/<robot>/<chain>. Raises ModelError for a chain without joints."""
+    if chain.n == 0:
+        raise ModelError(f"{chain.robot}: no joint lies between the root and {chain.name!r}; name a frame that moves")
+    robot, name = identifier(chain.robot), identifier(chain.name)  # names come from files: they go into text only in this form
+    return unit(f"robots/{robot}/{name}", f"Kinematics of the chain {name} of {robot}", chain, CHAIN_KERNELS)
 
 
 def loop_unit(loop: Loop) -> tuple[dict[str, str], UnitRecord]:
     """All kernels of two arms that hold one object, under robots/<robot>/<right>_<left>."""
-    path = f"robots/{identifier(loop.right.robot)}/{identifier(loop.name)}"
-    return unit(path, f"Closed chain {loop.name} of {loop.right.robot}", loop, LOOP_KERNELS)
+    robot, name = identifier(loop.right.robot), identifier(loop.name)
+    return unit(f"robots/{robot}/{name}", f"Closed chain {name} of {robot}", loop, LOOP_KERNELS)
 
 
 def screws_unit() -> tuple[dict[str, str], UnitRecord]:

@@ -14,7 +14,7 @@ from cga_codegen.emit.print_products import product_files
 from cga_codegen.kernels.closed_chain import Loop
 from cga_codegen.robots.bundled import bundled_robots
 from cga_codegen.robots.from_urdf import load_urdf
-from cga_codegen.robots.model import RobotModel
+from cga_codegen.robots.model import ModelError, RobotModel
 
 # robots whose kernels are checked in: name -> (chains, pairs of chains)
 CHECKED_IN: dict[str, tuple[tuple[str, ...], tuple[tuple[str, str], ...]]] = {
@@ -43,7 +43,7 @@ def robot_record(model: RobotModel, chains: Sequence[str], loops: Sequence[tuple
 def generate_robot(
     model: RobotModel, chains: Sequence[str], loops: Sequence[tuple[str, str]], say: Progress
 ) -> tuple[dict[str, str], list[UnitRecord], dict[str, Any]]:
-    """Texts, records and manifest entry of one robot. Raises ModelError for a frame that does not exist."""
+    """Texts, records and manifest entry of one robot. Raises ModelError for a frame that does not exist or does not move."""
     record = robot_record(model, chains, loops)
     files = {record["description"]: json.dumps(model.to_json(), indent=1, sort_keys=True) + "\n"}
     units: list[UnitRecord] = []
@@ -51,6 +51,8 @@ def generate_robot(
     made = [chain_unit(model.chain(frame)) for frame in chains] + [loop_unit(loop) for loop in loop_of.values()]
     for texts, unit in made:
         say(f"{unit.title}: {len(unit.kernels)} kernels, {sum(k.counts.total for k in unit.kernels)} operations")
+        if known := sorted(files.keys() & texts.keys()):
+            raise ModelError(f"{model.name}: two chains or loops would be called {known[0]}; generate them into separate folders")
         files.update(texts)
         units.append(unit)
     return files, units, record

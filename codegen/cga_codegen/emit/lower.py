@@ -96,9 +96,10 @@ class Program:
 
 
 class _Numbering:
-    """Builds nodes, giving equal values equal numbers."""
+    """Builds nodes, giving equal values equal numbers; `name` is the function's, for messages."""
 
-    def __init__(self) -> None:
+    def __init__(self, name: str) -> None:
+        self.name = name
         self.nodes: list[Node] = []
         self._number: dict[Node, int] = {}
 
@@ -111,7 +112,7 @@ class _Numbering:
 
     def constant(self, value: float) -> Signed:
         if not math.isfinite(value):
-            raise LoweringError(f"constant {value} in a kernel")
+            raise LoweringError(f"{self.name}: the constant {value} (from a division by zero, or an overflow)")
         positive = self.node("constant", value=abs(value))
         return -positive if value < 0 else positive
 
@@ -153,8 +154,8 @@ class _Numbering:
     def div(self, a: Signed, b: Signed) -> Signed:
         y = self.known(b)
         if y == 0:
-            raise LoweringError("division by the constant zero in a kernel")
-        if y is not None and math.frexp(abs(y))[0] == 0.5:  # a power of two: its reciprocal is exact
+            raise LoweringError(f"{self.name}: division by the constant zero")
+        if y is not None and math.frexp(y)[0] in (0.5, -0.5) and abs(y) > 1e-300:  # a power of two: its reciprocal is exact
             return self.mul(a, self.constant(1.0 / y))
         if self.known(a) == 0:
             return self.constant(0.0)
@@ -200,7 +201,7 @@ def lower(name: str, inputs: Iterable[tuple[Port, Any]], output: Port, expressio
     if flat.numel() != output.size:
         raise LoweringError(f"{name}: {flat.numel()} values for an output of shape {output.shape}")
     function = casadi.Function("f", [symbol for _, symbol in ports], [flat])
-    numbering = _Numbering()
+    numbering = _Numbering(name)
     work: dict[int, Signed] = {}
     results: list[Signed] = [numbering.constant(0.0)] * output.size
     for k in range(function.n_instructions()):
@@ -214,7 +215,8 @@ def lower(name: str, inputs: Iterable[tuple[Port, Any]], output: Port, expressio
         elif code in _RULES:
             work[into[0]] = _RULES[code](numbering, [work[i] for i in out_of])
         else:
-            raise LoweringError(f"{name}: casadi operation number {code} has no printed form; kernels may use + - * / sqrt")
+            called = next((key for key in dir(casadi) if key.startswith("OP_") and getattr(casadi, key) == code), code)
+            raise LoweringError(f"{name}: casadi's {called} has no printed form; kernels may use + - * / sqrt")
     return _ordered(name, tuple(port for port, _ in ports), output, numbering.nodes, results)
 
 

@@ -96,15 +96,17 @@ def manifest_text(version: str, files: Mapping[str, str], units: Sequence[UnitRe
 def write_folder(folder: Path, files: Mapping[str, str], manifest: str) -> None:
     """Writes the files and, last, the manifest, each through a temporary name, so that no half-written file is ever seen.
 
-    A run killed between two files leaves a manifest that does not match; the loader says so and names the command to run again.
-    Files that an earlier manifest listed and this one does not are removed. Raises GeneratedFolderError if the folder is not writable or
-    holds other people's files (not empty and without a manifest).
+    A run killed between two files leaves a manifest that does not match (a new folder: an empty one); the loader says so and names the
+    command to run again. Files that an earlier manifest listed and this one does not are removed. Raises GeneratedFolderError if the
+    folder is not writable or holds other people's files (not empty, and without a manifest of ours).
     """
     listing = folder / "manifest.json"
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        if not listing.exists() and any(folder.iterdir()):
-            raise GeneratedFolderError(f"{folder} is not empty and holds no manifest.json: name an empty folder, or one that cga made")
+        if not listing.exists():
+            if any(not entry.name.startswith(".manifest.json.") for entry in folder.iterdir()):  # such a name: a run that was killed
+                raise GeneratedFolderError(f"{folder} is not empty and holds no manifest.json: name an empty folder, or one that cga made")
+            _replace(listing, "{}\n")
         old = _listed(listing)
         for path, text in sorted(files.items()):
             _replace(folder / path, text)
@@ -116,10 +118,18 @@ def write_folder(folder: Path, files: Mapping[str, str], manifest: str) -> None:
 
 
 def _listed(manifest: Path) -> set[str]:
-    """Files of an existing manifest that lie inside its folder; none if it cannot be read (it is overwritten anyway)."""
+    """Files of an existing manifest that lie inside its folder; none if it cannot be read (it is overwritten anyway).
+
+    Raises GeneratedFolderError for a manifest.json of something else (web pages and packages have files of that name).
+    """
     try:
-        names = json.loads(manifest.read_text(encoding="utf-8"))["files"]
+        found = json.loads(manifest.read_text(encoding="utf-8"))
+        if found and "generator" not in found:
+            raise GeneratedFolderError(f"{manifest} is not a manifest of kernels: name an empty folder, or one that cga made")
+        names = found["files"]
         return {name for name in names if ".." not in Path(name).parts and not Path(name).is_absolute()}
+    except GeneratedFolderError:
+        raise
     except (OSError, ValueError, KeyError, TypeError):
         return set()
 

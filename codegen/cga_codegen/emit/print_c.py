@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from cga_codegen.emit.lower import Node, Program, Signed
+from cga_codegen.emit.lower import LoweringError, Node, Program, Signed
 
 _PATTERNS = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}"}
 
@@ -49,9 +49,9 @@ def print_body(program: Program, symbol: str, docstring: str) -> str:
     lines = [f"/* {docstring}\n   {counts.multiplications} mul, {counts.additions} add, {counts.divisions} div, {counts.roots} sqrt. */\n"]
     lines.append(f"static inline void {symbol}_body({arguments}, T *restrict out)\n{{\n")
     for k, node in enumerate(program.nodes):
-        if node.op == "sqrt":
-            raise ValueError(f"{program.name}: sqrt has no vector form yet; kernels avoid it")
         if node.op not in ("input", "constant"):
+            if node.op not in _PATTERNS:
+                raise LoweringError(f"{program.name}: {node.op} has no form on a vector type; kernels take what is trigonometric as inputs")
             lines.append(f"    const T t{program.number[k]} = {_PATTERNS[node.op].format(*(_operand(program, a) for a in node.args))};\n")
     lines += [f"    out[{i}] = {_result(program, r)};\n" for i, r in enumerate(program.results)]
     unused = [p.name for i, p in enumerate(program.inputs) if not any(n.op == "input" and n.args[0] == i for n in program.nodes)]
@@ -86,7 +86,9 @@ def print_entries(program: Program, symbol: str, kinds: Sequence[str]) -> str:
 
 
 def print_file(banner: str, parts: Iterable[str]) -> str:
-    """One translation unit."""
+    """One translation unit. Raises LoweringError for a banner that would not stay inside its comment."""
+    if any(mark in banner for mark in ("*/", "\\", "??")):  # the last two: line splices and trigraphs can hide the first
+        raise LoweringError(f"no C comment can hold {banner!r}")
     return f"/* {banner} */\n\n{PREAMBLE}\n" + "\n".join(parts)
 
 

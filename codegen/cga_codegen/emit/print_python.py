@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from cga_codegen.emit.lower import Node, Program, Signed
+from cga_codegen.emit.lower import LoweringError, Node, Program, Signed
 
 _PATTERNS = {"add": "{}+{}", "sub": "{}-{}", "mul": "{}*{}", "div": "{}/{}", "sqrt": "{}**0.5"}
 
@@ -24,6 +24,8 @@ def print_function(program: Program, docstring: str) -> str:
     lines.append(f'{counts.multiplications} mul, {counts.additions} add, {counts.divisions} div, {counts.roots} sqrt."""\n')
     for k, node in enumerate(program.nodes):
         if node.op not in ("input", "constant"):
+            if node.op not in _PATTERNS:
+                raise LoweringError(f"{program.name}: {node.op} has no printed form; kernels take what is trigonometric as inputs")
             lines.append(f"    t{program.number[k]} = {_PATTERNS[node.op].format(*(_operand(program, a) for a in node.args))}\n")
     results = ", ".join(_result(program, r) for r in program.results)
     lines.append(f"    return ({results},)\n")
@@ -31,7 +33,9 @@ def print_function(program: Program, docstring: str) -> str:
 
 
 def print_module(banner: str, functions: Iterable[str]) -> str:
-    """A module of functions under a banner docstring."""
+    """A module of functions under a banner docstring. Raises LoweringError for a banner that would not stay inside it."""
+    if '"' in banner or "\\" in banner:
+        raise LoweringError(f"no docstring can hold {banner!r}")
     return f'"""{banner}"""\n\n\n' + "\n\n".join(functions)
 
 

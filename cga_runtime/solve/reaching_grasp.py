@@ -1,0 +1,107 @@
+"""How two arms hold the object that `reach` moves: grasp, margins against singularities, and what they are measured against."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cga_runtime.coordinates import Array, read
+from cga_runtime.elements import Motor
+from cga_runtime.errors import DegenerateError, GraspError, SchemeError
+from cga_runtime.spaces.closed_chain import CLOSED, LENGTH, ClosedChain
+
+SINGULAR = 1e-9
+"""A limb factor f sin q4 / LENGTH, or a determinant D_a, below this at q0 counts as zero: margins cannot be relative to it."""
+MARGIN_TOLERANCE = 1e-8
+"""How far a solution may miss a margin."""
+
+
+@dataclass(frozen=True)
+class Held:
+    """A closed chain, its grasp X (8,), the moved point (3,) in the right hand's frame, and the margins.
+
+    limb_signs are those of f sin q4 at q0, determinant is D_a at q0, scheme the actuated joints (1-based).
+    """
+
+    loop: ClosedChain
+    grasp: Array
+    object_point: Array
+    limb_margin: float | None
+    limb_signs: Array
+    scheme: tuple[int, ...] | None
+    scheme_fraction: float
+    determinant: float
+    conditioning_weight: float
+
+    def points(self, q: Array) -> Array:
+        """Where the object's point is (m), (1, 3)."""
+        pose = self.loop.right.pose(q[: self.loop.right.n])
+        return np.asarray(pose[:3, :3] @ self.object_point + pose[:3, 3])[None]
+
+    def violation(self, q: Array) -> float:
+        """Closure error and missed margins, each over its tolerance; at most 1 for a valid configuration."""
+        worst = float(np.abs(self.loop.closure_error(q, self.grasp)).max()) / CLOSED
+        if self.limb_margin is not None:
+            worst = max(worst, float((self.limb_margin - self.limb_signs * limb_values(self.loop, q)).max()) / MARGIN_TOLERANCE)
+        if self.scheme is not None:
+            kept = float(self.loop.determinant(q, self.scheme)) / self.determinant
+            worst = max(worst, (self.scheme_fraction - kept) / MARGIN_TOLERANCE)
+        return worst
+
+
+def limb_values(loop: ClosedChain, q: Array) -> Array:
+    """f sin q4 / LENGTH of the right and the left arm, (2,)."""
+    if "limb_factors" not in loop.unit.names:
+        raise DegenerateError(f"limb_margin: the arms {loop.right.frame} and {loop.left.frame} have no wrist centre, hence no limb factors")
+    return np.asarray(loop.kernel("limb_factors")(q).prod(axis=-1) / LENGTH)
+
+
+def hold(
+    loop: ClosedChain,
+    q0: Array,
+    grasp: ArrayLike | Motor | None,
+    object_point: ArrayLike | None,
+    limb_margin: float | None,
+    scheme_margin: tuple[Sequence[int], float] | None,
+    conditioning_weight: float,
+) -> Held:
+    """Checks the arguments of `reach` that belong to a closed chain and evaluates what they are relative to at q0."""
+    motor = loop.grasp(q0) if grasp is None else (grasp if isinstance(grasp, Motor) else Motor(read(grasp, "grasp", 8))).coefficients
+    point = read((0.0, 0.0, 0.0) if object_point is None else object_point, "object_point", 3)
+    for array, what in ((motor, "grasp"), (point, "object_point")):
+        if array.ndim != 1:
+            raise DegenerateError(f"{what}: one at a time; its batch shape is {array.shape[:-1]}")
+    signs = np.ones(2)
+    if limb_margin is not None:
+        read(limb_margin, "limb_margin")
+        at_start = limb_values(loop, q0)
+        if np.abs(at_start).min() <= SINGULAR:
+            raise DegenerateError("limb_margin: q0 is a limb singularity; begin on one of its sides")
+        signs = np.sign(at_start)
+    scheme, fraction, determinant = None, 0.0, 1.0
+    if scheme_margin is not None:
+        scheme, fraction, determinant = _scheme_at(loop, q0, motor, scheme_margin)
+    weight = float(read(conditioning_weight, "conditioning_weight"))
+    return Held(loop, motor, point, limb_margin, signs, scheme, fraction, determinant, weight)
+
+
+def _scheme_at(
+    loop: ClosedChain, q0: Array, grasp: Array, scheme_margin: tuple[Sequence[int], float]
+) -> tuple[tuple[int, ...], float, float]:
+    """Actuated joints, fraction, and D_a(q0)."""
+    try:
+        actuated, fraction = scheme_margin
+    except (TypeError, ValueError):
+        raise SchemeError(f"scheme_margin: {scheme_margin!r} given; actuated joints and a fraction needed, as ((1, 3, 7, 8), 0.5)") from None
+    scheme = tuple(j + 1 for j in loop.scheme(actuated)[0])
+    try:
+        loop.require_closed(q0, grasp)
+    except GraspError as error:
+        raise GraspError(f"scheme_margin is a fraction of D_a at q0, where {error}") from None
+    determinant = float(loop.determinant(q0, scheme))
+    if abs(determinant) <= SINGULAR:
+        raise DegenerateError(f"scheme_margin: D_a of the scheme {scheme} is {determinant:.1e} at q0; a fraction of zero says nothing")
+    return scheme, float(read(fraction, "scheme_margin")), determinant

@@ -1,0 +1,45 @@
+"""What all tests share: a private cache for compiled kernels, a seeded generator, and the NAO."""
+
+import shutil
+import tempfile
+
+import numpy as np
+import pytest
+
+import cga_runtime as cga
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """The user's own cache is neither read nor written: every session compiles what it tests, once. Set here and not in a fixture,
+    because a test file may open a kernel while it is collected."""
+    folder = tempfile.mkdtemp(prefix="cga-tests-")
+    config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
+    patch = pytest.MonkeyPatch()
+    config.add_cleanup(patch.undo)
+    patch.setenv("XDG_CACHE_HOME", folder)
+    for name in ("CC", "CGA_NO_COMPILER"):  # a developer's settings would choose what is tested
+        patch.delenv(name, raising=False)
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    """Seeded anew for every test, so that a test draws the same alone and among all others."""
+    return np.random.default_rng(20)
+
+
+@pytest.fixture(scope="session")
+def nao() -> cga.Robot:
+    """The bundled NAO."""
+    return cga.load_robot("nao")
+
+
+@pytest.fixture(scope="session")
+def arm(nao: cga.Robot) -> cga.Chain:
+    """Its right arm: five revolute joints."""
+    return nao.chain("RHand")
+
+
+@pytest.fixture(scope="session")
+def loop(nao: cga.Robot) -> cga.ClosedChain:
+    """Both arms around one object: ten joints."""
+    return cga.ClosedChain(nao.chain("RHand"), nao.chain("LHand"))
