@@ -5,6 +5,12 @@
     arm.pose(q); arm.jacobian(q); arm.casadi("motor")
 """
 
+from cga_runtime.elements import Circle as Circle
+from cga_runtime.elements import Line as Line
+from cga_runtime.elements import Plane as Plane
+from cga_runtime.elements import Point as Point
+from cga_runtime.elements import PointPair as PointPair
+from cga_runtime.elements import Sphere as Sphere
 from cga_runtime.errors import CacheError as CacheError
 from cga_runtime.errors import CgaError as CgaError
 from cga_runtime.errors import CompilerError as CompilerError
@@ -18,10 +24,13 @@ from cga_runtime.errors import SchemeError as SchemeError
 from cga_runtime.errors import StaleKernelError as StaleKernelError
 from cga_runtime.errors import UnknownNameError as UnknownNameError
 from cga_runtime.errors import WrongSizeError as WrongSizeError
+from cga_runtime.motors import Motor as Motor
 from cga_runtime.robot import Chain as Chain
 from cga_runtime.robot import Robot as Robot
 from cga_runtime.robot import bundled_robots as bundled_robots
 from cga_runtime.robot import load_robot as load_robot
+from cga_runtime.solve.reaching import Solution as Solution
+from cga_runtime.solve.reaching import reach as reach
 from cga_runtime.spaces.closed_chain import ClosedChain as ClosedChain
 
 __version__ = "0.1.0"

@@ -58,7 +58,7 @@ def numeric(values: ArrayLike, what: str) -> Array:
             return np.asarray(array, dtype=np.float64)
     except (TypeError, ValueError, OverflowError, NotImplementedError) as error:
         raise WrongSizeError(f"{what}: not an array of numbers ({error})") from None
-    raise WrongSizeError(f"{what}: an array of {array.dtype} given, real numbers needed")
+    raise WrongSizeError(f"{what}: not an array of numbers ({array.dtype} given)")
 
 
 def finite(values: ArrayLike, what: str) -> Array:

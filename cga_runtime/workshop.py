@@ -5,6 +5,7 @@ Everything here works on plain data (a robot's description as JSON), so that the
 
 from __future__ import annotations
 
+import importlib.util
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
@@ -34,12 +35,11 @@ def read_robot(file: Path) -> str:
     from cga_codegen.robots.from_urdf import load_urdf
     from cga_codegen.robots.model import ModelError
 
+    _require_pinocchio()
     try:
         model = load_urdf(file)
     except ModelError as error:
         raise RobotFileError(str(error)) from error
-    except ImportError as error:
-        raise MissingExtraError("reading a URDF", "pinocchio (pip name: pin)", "urdf") from error
     return json.dumps(model.to_json(), sort_keys=True)
 
 
@@ -51,6 +51,11 @@ def bundled_file(name: str) -> Path:
     if name not in files:
         raise UnknownNameError("bundled robot", name, files)
     return files[name]
+
+
+def _require_pinocchio() -> None:
+    if importlib.util.find_spec("pinocchio") is None:
+        raise MissingExtraError("reading a URDF", "pinocchio (pip name: pin)", "urdf")
 
 
 def chain_unit(order: ChainOrder) -> Unit:
@@ -76,14 +81,13 @@ def generate_folder(file: Path, out: Path, frames: Sequence[str], pairs: Sequenc
     from cga_codegen.robots.from_urdf import load_urdf
     from cga_codegen.robots.model import ModelError
 
+    _require_pinocchio()
     try:
         model = load_urdf(file)
         chains = list(dict.fromkeys([*(frames or model.tips()), *(frame for pair in pairs for frame in pair)]))
         generate([(model, chains, pairs)], out, say)
     except (ModelError, LoweringError, GeneratedFolderError) as error:
         raise RobotFileError(str(error)) from error
-    except ImportError as error:
-        raise MissingExtraError("reading a URDF", "pinocchio (pip name: pin)", "urdf") from error
     record: dict[str, Any] = Library(out).manifest["robots"][model.name]
     return record
 
@@ -93,6 +97,7 @@ def generate_checked_in(out: Path, say: Say) -> None:
     from cga_codegen.emit.manifest import GeneratedFolderError
     from cga_codegen.generate import checked_in_robots, generate
 
+    _require_pinocchio()
     try:
         generate(checked_in_robots(), out, say)
     except GeneratedFolderError as error:

@@ -2,6 +2,7 @@
 
 import shutil
 import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -43,3 +44,9 @@ def arm(nao: cga.Robot) -> cga.Chain:
 def loop(nao: cga.Robot) -> cga.ClosedChain:
     """Both arms around one object: ten joints."""
     return cga.ClosedChain(nao.chain("RHand"), nao.chain("LHand"))
+
+
+@pytest.fixture(scope="session")
+def skew() -> cga.Robot:
+    """A made-up tree of what the NAO lacks: oblique axes, turned placements, prismatic and continuous joints (tests/data/skew.urdf)."""
+    return cga.load_robot(Path(__file__).parent / "data" / "skew.urdf")

@@ -32,9 +32,10 @@ ALGEBRA, ROBOTS, KERNELS, EMIT = (f"{GEN}.{room}" for room in ("algebra", "robot
 
 # The runtime is one line: each room may import itself and what stands before it.
 LINE = (
-    *("errors", "cache", "compile", "kernels", "elements", "workshop", "robot", "spaces"),
-    *("analysis", "solve", "control", "kendo", "experiments", "report", "view", "cli"),
+    *("errors", "cache", "compile", "kernels", "coordinates", "motors", "elements", "workshop", "robot", "spaces"),
+    *("solve", "analysis", "control", "kendo", "experiments", "report", "view", "cli"),
 )
+CALCULATES_WITHOUT_CASADI = ("errors", "kernels", "coordinates", "motors", "elements")  # nothing of it before it is asked for
 
 
 def up_to(last: str) -> tuple[str, ...]:
@@ -54,13 +55,14 @@ ROOMS = {
     f"{GEN}.generate": Room((ALGEBRA, ROBOTS, KERNELS, EMIT, f"{GEN}.catalogue"), ("casadi", "numpy")),
     f"{GEN}.cli": Room((GEN,), ("casadi", "numpy", "rich", "typer")),
     RUN: Room(up_to("view"), ("numpy",)),
-    **{f"{RUN}.{room}": Room(up_to(room), ("numpy",), lazily=("casadi",)) for room in ("errors", "kernels", "elements")},
+    **{f"{RUN}.{room}": Room(up_to(room), ("numpy",), lazily=("casadi",)) for room in CALCULATES_WITHOUT_CASADI},
     f"{RUN}.cache": Room(up_to("cache"), ("numpy",), lazily=("casadi", "filelock", "platformdirs")),
     f"{RUN}.compile": Room(up_to("compile"), ("numpy",), lazily=("casadi", "ziglang")),
     f"{RUN}.workshop": Room((*up_to("workshop"), GEN), ("numpy",), lazily=("casadi",)),  # the one door to cga_codegen
     **{f"{RUN}.{room}": Room(up_to(room), ("casadi", "numpy")) for room in LINE[LINE.index("robot") : LINE.index("report")]},
+    f"{RUN}.experiments.bench": Room(up_to("experiments"), ("casadi", "numpy"), lazily=("pinocchio",)),  # the peer it measures
     f"{RUN}.control.simulation": Room(up_to("control"), ("casadi", "numpy"), lazily=("mujoco",)),
-    f"{RUN}.report": Room(up_to("report"), ("casadi", "jinja2", "numpy", "plotly"), lazily=("mujoco",)),
+    f"{RUN}.report": Room(up_to("report"), ("casadi", "jinja2", "markupsafe", "numpy", "plotly"), lazily=("mujoco",)),
     f"{RUN}.view": Room(up_to("view"), ("casadi", "numpy"), lazily=("mujoco", "viser")),
     f"{RUN}.cli": Room((RUN,), ("casadi", "numpy", "rich", "typer")),
 }
@@ -133,7 +135,8 @@ def broken_imports(path: str, source: str) -> list[str]:
             broken.append(f"{place} imports {item.target}: {top} is not a package")
         elif top in (GEN, RUN):
             if not within(item.target, room.own) and item.target != f"{name.split('.')[0]}.__version__":
-                broken.append(f"{place} imports {item.target}: {name} may import {', '.join(room.own) or 'none of ours'}")
+                allowed = ", ".join(sorted(place.partition(".")[2] or place for place in room.own)) or "none of ours"
+                broken.append(f"{place} imports {item.target}: {name} may import {allowed}")
         elif top in room.lazily:
             if not item.lazy:
                 broken.append(f"{place} imports {item.target} at import time: {name} may only inside functions")
@@ -256,6 +259,9 @@ BROKEN = [
     ("cga_runtime/solve/riccati.py", "import scipy.linalg", "imports scipy"),
     ("cga_runtime/control/mpc.py", "def f():\n    import mujoco", "imports mujoco"),
     ("cga_runtime/control/simulation.py", "import mujoco", "only inside functions"),
+    ("cga_runtime/experiments/bench.py", "import pinocchio", "only inside functions"),
+    ("cga_runtime/experiments/reaching.py", "def f():\n    import pinocchio", "imports pinocchio"),
+    ("cga_runtime/motors.py", "import casadi", "only inside functions"),
     ("cga_runtime/kendo/strikes.py", "import plotly.graph_objects as go", "imports plotly"),
     ("cga_runtime/report/page.py", "import rich", "imports rich"),
     ("cga_runtime/view/page.py", "import jinja2", "imports jinja2"),

@@ -12,6 +12,7 @@ from time import perf_counter
 from types import ModuleType
 from typing import Any
 
+from cga_runtime import __version__
 from cga_runtime.cache import write_atomic
 from cga_runtime.errors import CgaError, MissingExtraError
 from cga_runtime.report import constraint, kernels, limb, mobility, nearest, reaching, schemes, strict_json
@@ -71,8 +72,9 @@ def build_report(
     context.data["seconds"] = perf_counter() - begin
     page, data = render(context, figures), strict_json.text(context.data)
     try:
-        write_atomic(folder / "report.json", data.encode())
-        write_atomic(folder / "index.html", page.encode())
+        for name, content in (("report.json", data), ("index.html", page)):
+            write_atomic(folder / name, content.encode())
+            (folder / name).chmod(0o644)  # temporary files are private; a report is for showing around
     except OSError as error:
         raise ReportFolderError(f"cannot write the report into {folder} ({error.strerror}); name another folder with --out") from error
     if progress is not None:
@@ -97,9 +99,10 @@ def _folder(out: Path) -> Path:
 def versions() -> dict[str, str]:
     """Versions of what the numbers depend on, and the machine that the times were taken on."""
     found = {}
-    for package in ("cga-robotics", "numpy", "casadi", "plotly", "jinja2"):
+    for package in ("numpy", "casadi", "plotly", "jinja2"):
         try:
             found[package] = version(package)
         except PackageNotFoundError:
             found[package] = "not installed"
-    return {**found, "python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}"}
+    found |= {"python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}"}
+    return {"cga-robotics": __version__, **found}

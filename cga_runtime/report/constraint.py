@@ -1,4 +1,4 @@
-"""Section "constraint": the configuration where both constraint forces fall on one line and the object gains no constraint (paper C, 5.2.1)."""
+"""Section "constraint": the configuration where both constraint forces fall on one line (paper C, section 5.2.1)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from cga_runtime.analysis.singularities import limb_loci
 from cga_runtime.report.context import Context, closed_chain
 from cga_runtime.report.figures import Figure, figure, heat_map, label, limits_box, on_map
-from cga_runtime.report.limb import compared
+from cga_runtime.report.limb import LOCUS, compared
 from cga_runtime.robot import Robot
 from cga_runtime.spaces.closed_chain import ClosedChain
 
@@ -20,26 +20,36 @@ RANGE = 2.0
 """Half-width of the map over (q2, q7) (rad)."""
 
 
+Z = "√(f²+f²) (mm)"
+
+
 def section(context: Context) -> dict[str, Any]:
     """Mobility with both S centres on the common ShoulderPitch line (q2 = q2*, q7 = q7*), and whether the limits allow it.
 
-    joint_mobility counts the self-motions that the two arms keep (each turns about its own line of U and S).
+    joint_mobility counts the self-motions of the arms; wrench_rank counts the wrench, besides the force along U S, that each arm gains by
+    losing a direction.
     """
     loop, half = context.loop, context.loop.right.n
     q = context.parallel_pose.copy()
     q[1], q[half + 1] = context.q2_star
     found = loop.mobility(q)
-    both = [locus.inside for locus in limb_loci(loop)]
+    right, left = limb_loci(loop)
     return {
         "q": q,
         "object_dof": found.object_dof,
         "joint_mobility": found.joint_mobility,
         "motion": found.motion,
         "limb_ranks": list(found.limb_ranks),
-        "constraint_rank": found.constraint_rank,
-        "reachable": all(both),
-        "distance_to_limits_rad": float(np.hypot(*(locus.margin for locus in limb_loci(loop)))),
+        "force_rank": force_rank(loop, q),
+        "wrench_rank": found.constraint_rank,
+        "reachable": right.inside and left.inside,
+        "distance_to_limits_rad": float(np.hypot(right.margin, left.margin)),
     }
+
+
+def force_rank(loop: ClosedChain, q: Array) -> int:
+    """Number of independent forces among the two along U S (1 at the constraint singularity, else 2)."""
+    return int(np.linalg.matrix_rank(loop.kernel("constraint_wrenches")(q), tol=1e-9))
 
 
 def figures(context: Context) -> dict[str, Figure]:
@@ -61,14 +71,16 @@ def _map(loop: ClosedChain, grid: Array) -> Array:
 def _figure(robot: Robot, loop: ClosedChain, grid: Array, z: Array, top: float) -> Figure:
     j = loop.right.n + 1
     right, left = limb_loci(loop)
-    trace, layout = heat_map(grid, grid, z, x_title="q2 right ShoulderRoll (rad)", y_title="q7 left ShoulderRoll (rad)", z_title="√(f²+f²) (mm)", z_max=top)
+    trace, layout = heat_map(
+        grid, grid, z, x_title="q2 right ShoulderRoll (rad)", y_title="q7 left ShoulderRoll (rad)", z_title=Z, z_max=top
+    )
     box, words = limits_box((loop.lower[1], loop.lower[j]), (loop.upper[1], loop.upper[j]))
     star = {
         "type": "scatter",
         "x": [right.q2_star],
         "y": [left.q2_star],
         "mode": "markers",
-        "marker": {"color": "#ff5a36", "size": 13, "symbol": "x", "line": {"color": "white", "width": 1.5}},
+        "marker": {"color": LOCUS, "size": 13, "symbol": "x", "line": {"color": "white", "width": 1.5}},
         "name": "constraint singularity",
         "showlegend": False,
         "hovertemplate": "q2* = %{x:.4f}, q7* = %{y:.4f}<extra>constraint singularity</extra>",
@@ -76,4 +88,4 @@ def _figure(robot: Robot, loop: ClosedChain, grid: Array, z: Array, top: float) 
     inside = right.inside and left.inside
     title = f"{label(robot.name)}: constraint singularity {'inside' if inside else 'outside'} the limits"
     marks = [words, on_map(right.q2_star, left.q2_star, "q2*, q7*", yshift=16)]
-    return figure([trace, box, star], {**layout, "title": {"text": title, "font": {"size": 14}}, "annotations": marks})
+    return figure([trace, box, star], {**layout, "title": {"text": title}, "annotations": marks})

@@ -25,6 +25,9 @@ NEEDED = ("limb_factors", "wrist_centres", "constraint_wrenches")
 GENERIC_POSE = (0.55, -0.45, 0.9, 0.95, 0.2, 0.25, 0.35, -0.8, -1.2, 0.3)
 """The asymmetric pose (rad) at which generic statements are drawn: no two joint axes of different arms meet, except the shoulders'."""
 
+PARALLEL_ARM = (0.35, 0.0, 1.4, 0.6, 0.2)
+"""Right arm (rad) of the parallel pose, save its second joint, which follows from the geometry: hands in front, 12 cm apart for the NAO."""
+
 
 class ReportRobotError(CgaError, ValueError):
     """The report is about two arms of a universal and a spherical joint each; this robot does not have them."""
@@ -36,8 +39,8 @@ class Sizes:
     searches; grid: points along a side of each map; rounds: repetitions of each timing."""
 
     samples: int = 3000
-    tries: int = 20
-    poses: int = 60
+    tries: int = 100
+    poses: int = 24
     grid: int = 81
     rounds: int = 7
 
@@ -71,8 +74,7 @@ class Context:
     @cached_property
     def parallel_pose(self) -> Array:
         """A mirror-symmetric pose with both upper arms (lines U S) normal to the common ShoulderPitch axis, hence parallel."""
-        half = self.loop.right.n
-        right = np.array(GENERIC_POSE[:half])
+        right = np.array(PARALLEL_ARM)
         # a quarter turn from the position on the axis; of the two, the one nearer to the middle of the limits
         right[1] = min((self.q2_star[0] + turn for turn in (np.pi / 2, -np.pi / 2)), key=lambda x: abs(x - self.limits[:, 1].mean()))
         return np.concatenate([right, self.mirror * right])

@@ -1,4 +1,4 @@
-"""One drawing of both arms, the object and its screws, made once and shown twice: as a plotly 3-D figure and as a still drawing (still.py)."""
+"""One drawing of both arms, the object and its screws, shown twice: as a plotly 3-D figure, and as a still drawing (still.py)."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from cga_runtime.report.figures import Figure, figure, label
 
 Array = NDArray[np.float64]
 
-AXIS, BEYOND, ARROW = 0.028, 0.085, 0.075
+AXIS, BEYOND, ARROW = 0.028, 0.08, 0.09
 """Half-length of a joint axis, how far a force line goes beyond U and S, and length of an arrow (m)."""
 
 
 @dataclass(frozen=True)
 class Line:
-    """A line or polyline (k, 3) of one kind: torso, link, axis, object, force, rotation, translation. tag: short label at its last point."""
+    """A line or polyline (k, 3) of one kind: torso, link, axis, object, force, rotation, translation. tag: label at its last point."""
 
     kind: str
     points: Array
@@ -94,28 +94,18 @@ STYLE: dict[str, tuple[str, int, str]] = {
     "axis": ("var(--ink)", 3, "solid"),
     "object": ("var(--object)", 14, "solid"),
     "force": ("var(--force)", 5, "solid"),
-    "rotation": ("var(--good)", 3, "dash"),
+    "rotation": ("var(--good)", 4, "longdash"),
     "translation": ("var(--good)", 6, "solid"),
 }
 """Kind -> colour ("" is that of the side), width, dash."""
-LEGEND = {
-    "link": "arm",
-    "axis": "joint axes",
-    "object": "grasped object",
-    "force": "constraint forces ζ",
-    "translation": "object translations T",
-    "rotation": "object rotations R",
-}
 SYMBOL = {"U": "circle", "S": "diamond", "hand": "square"}
 
 
 def three_d(made: Drawing) -> Figure:
     """The drawing as a plotly scene (WebGL), equal scales, torso frame x forward, y left, z up."""
     traces: list[dict[str, Any]] = []
-    shown: set[str] = set()
     for line in made.lines:
         colour, width, dash = STYLE[line.kind]
-        group = f"{line.side} {LEGEND[line.kind]}" if line.kind == "link" else LEGEND.get(line.kind, "")
         x, y, z = line.points.T
         traces.append(
             {
@@ -127,14 +117,10 @@ def three_d(made: Drawing) -> Figure:
                 "text": [""] * (len(x) - 1) + [f" {line.tag}"],
                 "textfont": {"color": colour or f"var(--{line.side})", "size": 14},
                 "line": {"color": colour or f"var(--{line.side})", "width": width, "dash": dash},
-                "name": group or line.name,
-                "legendgroup": group,
-                "showlegend": bool(group) and group not in shown,
                 "hovertext": label(line.name),
                 "hoverinfo": "text",
             }
         )
-        shown.add(group)
         if line.kind == "translation":
             traces.append(_head(line, colour))
     for mark in made.marks:
@@ -148,16 +134,23 @@ def three_d(made: Drawing) -> Figure:
                 "text": [mark.tag],
                 "textposition": "top center",
                 "textfont": {"size": 13},
-                "marker": {"color": f"var(--{mark.side})", "size": 6, "symbol": SYMBOL[mark.kind], "line": {"color": "var(--card)", "width": 1}},
-                "showlegend": False,
+                "marker": {
+                    "color": f"var(--{mark.side})",
+                    "size": 6,
+                    "symbol": SYMBOL[mark.kind],
+                    "line": {"color": "var(--card)", "width": 1},
+                },
                 "hovertext": mark.name,
                 "hoverinfo": "text",
             }
         )
-    axes = {f"{name}axis": {"title": {"text": f"{name} {words} (m)"}, "nticks": 5} for name, words in (("x", "forward"), ("y", "left"), ("z", "up"))}
-    eye = {"x": 1.15, "y": -1.0, "z": 0.75}
+    axes = {
+        f"{name}axis": {"title": {"text": f"{name} {words} (m)", "font": {"size": 11}}, "nticks": 5, "tickfont": {"size": 10}}
+        for name, words in (("x", "forward"), ("y", "left"), ("z", "up"))
+    }
+    eye = {"x": 0.95, "y": -0.83, "z": 0.62}
     scene = {**axes, "aspectmode": "data", "camera": {"eye": eye, "projection": {"type": "orthographic"}}}
-    return figure(traces, {"scene": scene, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}, "height": 480, "uirevision": "keep"})
+    return figure(traces, {"scene": scene, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}, "showlegend": False, "uirevision": "keep"})
 
 
 def _head(line: Line, colour: str) -> dict[str, Any]:
@@ -166,5 +159,15 @@ def _head(line: Line, colour: str) -> dict[str, Any]:
     x, y, z = end
     u, v, w = 0.3 * (end - start)
     scale = [[0.0, colour], [1.0, colour]]
-    cone: dict[str, Any] = {"type": "cone", "x": [x], "y": [y], "z": [z], "u": [u], "v": [v], "w": [w], "colorscale": scale, "showscale": False}
+    cone: dict[str, Any] = {
+        "type": "cone",
+        "x": [x],
+        "y": [y],
+        "z": [z],
+        "u": [u],
+        "v": [v],
+        "w": [w],
+        "colorscale": scale,
+        "showscale": False,
+    }
     return {**cone, "sizemode": "raw", "anchor": "tail", "hoverinfo": "skip"}

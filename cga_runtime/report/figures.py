@@ -27,14 +27,22 @@ CLASS_STYLE = {
 SCALE = "Viridis"
 """Even in lightness, and readable with any colour vision; dark is zero, that is singular."""
 
-_AXIS = {"gridcolor": "var(--grid)", "zerolinecolor": "var(--grid)", "linecolor": "var(--faint)", "tickcolor": "var(--faint)", "automargin": True}
+_AXIS = {
+    "gridcolor": "var(--grid)",
+    "zerolinecolor": "var(--grid)",
+    "linecolor": "var(--faint)",
+    "tickcolor": "var(--faint)",
+    "automargin": True,
+}
 _SCENE_AXIS = {"gridcolor": "var(--grid)", "zerolinecolor": "var(--faint)", "showbackground": False, "color": "var(--soft)"}
 THEME: Figure = {
     "layout": {
         "paper_bgcolor": "rgba(0,0,0,0)",
         "plot_bgcolor": "rgba(0,0,0,0)",
         "font": {"color": "var(--ink)", "size": 13},
-        "margin": {"l": 60, "r": 20, "t": 36, "b": 56},
+        "margin": {"l": 60, "r": 20, "t": 44, "b": 56},
+        "title": {"x": 0.0, "xref": "paper", "xanchor": "left", "y": 0.97, "yanchor": "top", "font": {"size": 15}},
+        "modebar": {"bgcolor": "rgba(0,0,0,0)", "color": "var(--faint)", "activecolor": "var(--accent)"},
         "hoverlabel": {"bgcolor": "var(--card)", "bordercolor": "var(--faint)", "font": {"color": "var(--ink)"}},
         "legend": {"orientation": "h", "yanchor": "bottom", "y": 1.02, "x": 0},
         "xaxis": _AXIS,
@@ -55,7 +63,8 @@ def figure(traces: Sequence[Mapping[str, Any]], layout: Mapping[str, Any]) -> Fi
 
 def _as_given(checked: Sequence[Mapping[str, Any]], traces: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Arrays as they came in: plotly packs them into base64, which no reader and no test can look into."""
-    return [{**made, **{key: value for key, value in given.items() if isinstance(value, (np.ndarray, list))}} for made, given in zip(checked, traces, strict=True)]
+    arrays = [{key: value for key, value in trace.items() if isinstance(value, (np.ndarray, list))} for trace in traces]
+    return [{**made, **given} for made, given in zip(checked, arrays, strict=True)]
 
 
 def label(text: str) -> str:
@@ -63,7 +72,9 @@ def label(text: str) -> str:
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
-def heat_map(x: Array, y: Array, z: Array, *, x_title: str, y_title: str, z_title: str, z_max: float | None = None, hover: str = "") -> tuple[Figure, Figure]:
+def heat_map(
+    x: Array, y: Array, z: Array, *, x_title: str, y_title: str, z_title: str, z_max: float | None = None
+) -> tuple[Figure, Figure]:
     """Trace and layout of a map z[row y, column x] whose colours begin at zero, the singular value."""
     trace = {
         "type": "heatmap",
@@ -73,14 +84,19 @@ def heat_map(x: Array, y: Array, z: Array, *, x_title: str, y_title: str, z_titl
         "zmin": 0.0,
         "zmax": float(z.max()) if z_max is None else z_max,
         "colorscale": SCALE,
+        "zsmooth": "fast",
         "colorbar": {"title": {"text": z_title, "side": "right"}, "thickness": 14, "outlinewidth": 0},
-        "hovertemplate": hover or f"{x_title} %{{x:.3f}}<br>{y_title} %{{y:.3f}}<br>{z_title} %{{z:.3f}}<extra></extra>",
+        "hovertemplate": f"{x_title} %{{x:.3f}}<br>{y_title} %{{y:.3f}}<br>{z_title} %{{z:.3f}}<extra></extra>",
     }
-    return trace, {"xaxis": {"title": {"text": x_title}}, "yaxis": {"title": {"text": y_title}}}
+    axes = {
+        f"{name}axis": {"title": {"text": title}, "range": [float(values[0]), float(values[-1])], "constrain": "domain"}
+        for name, title, values in (("x", x_title, x), ("y", y_title, y))
+    }
+    return trace, axes
 
 
 def limits_box(low: Sequence[float], high: Sequence[float], name: str = "joint limits") -> tuple[Figure, Figure]:
-    """A dashed rectangle between two corners of a map, with a name at its upper left corner: a trace (so that it has a hover) and its label."""
+    """A dashed rectangle between two corners of a map, and a label with its name at the upper left corner."""
     (x0, y0), (x1, y1) = low, high
     trace = {
         "type": "scatter",
@@ -96,4 +112,13 @@ def limits_box(low: Sequence[float], high: Sequence[float], name: str = "joint l
 
 def on_map(x: float, y: float, text: str, **options: Any) -> Figure:
     """White words on a map, on a dark ground so that they are read on every colour."""
-    return {"x": x, "y": y, "text": text, "showarrow": False, "font": {"color": "white", "size": 12}, "bgcolor": "rgba(0,0,0,0.55)", "borderpad": 2, **options}
+    return {
+        "x": x,
+        "y": y,
+        "text": text,
+        "showarrow": False,
+        "font": {"color": "white", "size": 12},
+        "bgcolor": "rgba(0,0,0,0.55)",
+        "borderpad": 2,
+        **options,
+    }

@@ -23,7 +23,7 @@ SLICE = 1e-3
 
 
 def section(context: Context) -> dict[str, Any]:
-    """One entry a kernel, named unit/kernel; nanoseconds are medians of rounds: scalar = one call from Python, batch = per pose of a batch."""
+    """One entry a kernel, named part/kernel. Nanoseconds are medians of rounds: scalar of one call from Python, batch per pose of a batch."""
     rng = np.random.default_rng(context.seed)
     found = {}
     for part, unit, poses in _units(context, rng):
@@ -80,8 +80,9 @@ def figures(context: Context) -> dict[str, Figure]:
     data = context.data["kernels"]
     both = {name: entry for name, entry in data.items() if entry["operations_by_differentiation"] is not None}
     names = list(both)[::-1]
+    bar = {"type": "bar", "orientation": "h", "y": names}
     bars = [
-        {"type": "bar", "orientation": "h", "y": names, "x": [both[name][key] for name in names], "name": words, "marker": {"color": colour}}
+        {**bar, "x": [both[name][key] for name in names], "name": words, "marker": {"color": colour}}
         for key, words, colour in (
             ("operations_by_differentiation", "automatic differentiation", "var(--faint)"),
             ("operations", "generated from screws", "var(--right)"),
@@ -97,5 +98,6 @@ def figures(context: Context) -> dict[str, Figure]:
         "hovertemplate": "%{text}<br>%{x} operations<br>%{y:.0f} ns per pose<extra></extra>",
         "marker": {"color": "var(--right)", "size": 9, "line": {"color": "var(--card)", "width": 1}},
     }
-    axes = {"xaxis": {"title": {"text": "arithmetic operations"}, "type": "log"}, "yaxis": {"title": {"text": "ns per pose in a batch"}, "type": "log"}}
+    titles = (("xaxis", "arithmetic operations"), ("yaxis", "ns per pose in a batch"))
+    axes = {axis: {"title": {"text": words}, "type": "log", "dtick": "D2"} for axis, words in titles}
     return {"kernels-operations": figure(bars, {**order, "margin": {"l": 200}}), "kernels-time": figure([cloud], axes)}

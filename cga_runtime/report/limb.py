@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 RANGE_Q2, RANGE_Q4 = (-2.2, 1.0), (-0.5, 2.0)
 """What the maps show (rad): the limits of both NAO versions with a margin."""
 SWEEP = 2001
+LOCUS = "#ff5a36"
+"""Colour of singular loci: stands out from every colour of the maps."""
 
 
 def section(context: Context) -> dict[str, Any]:
@@ -80,13 +82,17 @@ def _figure(robot: Robot, loop: ClosedChain, q2: Array, q4: Array, z: Array, top
     trace, layout = heat_map(q2, q4, z, x_title="q2 ShoulderRoll (rad)", y_title="q4 ElbowRoll (rad)", z_title="√det JᵀJ (cm²)", z_max=top)
     box, words = limits_box((loop.lower[1], loop.lower[3]), (loop.upper[1], loop.upper[3]))
     lines = [
-        ([star.q2_star] * 2, [q4[0], q4[-1]], f"q2* = {star.q2_star:.4f}"),
+        ([star.q2_star] * 2, [q4[0], q4[-1]], f"q2* = {star.q2_star:.4f}".replace("-", "−")),
         ([q2[0], q2[-1]], [0.0, 0.0], "q4 = 0"),
     ]
-    loci = [
-        {"type": "scatter", "x": x, "y": y, "mode": "lines", "line": {"color": "#ff5a36", "width": 3}, "name": name, "showlegend": False, "hoverinfo": "name"}
-        for x, y, name in lines
+    drawn = {"type": "scatter", "mode": "lines", "line": {"color": LOCUS, "width": 3}, "hoverinfo": "name"}
+    loci = [{**drawn, "x": x, "y": y, "name": name} for x, y, name in lines]
+    marks = [
+        words,
+        on_map(star.q2_star, q4[-1], lines[0][2], yanchor="top", xanchor="left", xshift=3),
+        on_map(q2[-1], 0.0, "q4 = 0", xanchor="right"),
     ]
-    marks = [words, on_map(star.q2_star, q4[-1], lines[0][2], yanchor="top", xanchor="right"), on_map(q2[-1], 0.0, "q4 = 0", xanchor="right")]
     outside = "inside the limits" if star.inside else f"{star.margin:.4f} rad outside the limits"
-    return figure([trace, box, *loci], {**layout, "title": {"text": f"{label(robot.name)}: q2* {outside}", "font": {"size": 14}}, "annotations": marks})
+    return figure(
+        [trace, box, *loci], {**layout, "title": {"text": f"{label(robot.name)}: q2* {outside}"}, "annotations": marks, "showlegend": False}
+    )

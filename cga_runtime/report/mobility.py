@@ -69,9 +69,10 @@ def object_twists(arms: Arms, forces: Array) -> list[dict[str, Any]]:
     the shoulder line, the line of the S centres, and the two lines across. Each twist: kind, name, w, v about the origin, point on its axis.
     """
     right, left = arms.right, arms.left
-    _, values, rows = np.linalg.svd(forces)
-    normals = rows[int((values > SPAN).sum()) :]
-    twists = [{"kind": "translation", "name": "normal to both forces", "w": np.zeros(3), "v": _signed(n), "point": None} for n in normals]
+    twists: list[dict[str, Any]] = [
+        {"kind": "translation", "name": "normal to both forces", "w": np.zeros(3), "v": _signed(n), "point": None}
+        for n in normals(forces, left.u - right.u)
+    ]
     edges = {
         "shoulder line U_R U_L": (right.u, left.u),
         "line S_R S_L of the S centres": (right.s, left.s),
@@ -85,6 +86,18 @@ def object_twists(arms: Arms, forces: Array) -> list[dict[str, Any]]:
         if np.linalg.svd(trial, compute_uv=False)[-1] > SPAN:
             twists.append({"kind": "rotation", "name": name, "w": w, "v": v, "point": a})
     return twists
+
+
+def normals(forces: Array, shoulders: Array) -> Array:
+    """Orthonormal directions normal to all forces, (k, 3); where there are two of them, one lies in the plane of the forces and the shoulder line."""
+    _, values, rows = np.linalg.svd(forces)
+    free: Array = rows[int((values > SPAN).sum()) :]
+    within = free @ shoulders
+    size = float(np.linalg.norm(within))
+    if len(free) != 2 or size < SPAN:
+        return free
+    turned = np.array([within, [-within[1], within[0]]]) / size
+    return turned @ free
 
 
 def _signed(direction: Array) -> Array:

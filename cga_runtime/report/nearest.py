@@ -12,7 +12,6 @@ from cga_runtime.report.figures import Figure, figure
 from cga_runtime.report.schemes import scheme_name
 
 KINDS = ("limb", "constraint", "actuation")
-BINS = 24
 
 
 def section(context: Context) -> dict[str, Any]:
@@ -39,32 +38,38 @@ def _statistics(distances: Sequence[float], tried: int) -> dict[str, Any]:
 
 
 def figures(context: Context) -> dict[str, Figure]:
-    """Histograms of the distances, one figure for each region of the search."""
+    """Share of poses whose distance is at most x, one figure for each region of the search."""
     data = context.data["nearest"]
-    titles = {"unlimited": "joint limits ignored", "within_limits": "inside the joint limits"}
+    titles = {"unlimited": "Joint limits ignored", "within_limits": "Inside the joint limits"}
     top = max((max(part["distances"], default=0.0) for kind in KINDS for part in (data[kind][region] for region in titles)), default=1.0)
-    return {f"nearest-{region.replace('_', '-')}": _histogram(data, region, title, top) for region, title in titles.items()}
+    return {f"nearest-{region.replace('_', '-')}": _shares(data, region, title, top) for region, title in titles.items()}
 
 
-def _histogram(data: dict[str, Any], region: str, title: str, top: float) -> Figure:
-    colours = {"limb": "var(--right)", "constraint": "var(--force)", "actuation": "var(--left)"}
+STYLE = {"limb": ("var(--right)", "solid"), "constraint": ("var(--force)", "dash"), "actuation": ("var(--left)", "dot")}
+
+
+def _shares(data: dict[str, Any], region: str, title: str, top: float) -> Figure:
     traces, words = [], []
     for kind in KINDS:
         part = data[kind][region]
         name = kind if kind != "actuation" else f"actuation of {scheme_name(data[kind]['scheme'])}"
-        if part["found"]:
-            bins = {"start": 0.0, "end": 1.001 * top, "size": 1.001 * top / BINS}
-            marker = {"color": colours[kind], "line": {"color": "var(--card)", "width": 1}}
-            traces.append({"type": "histogram", "x": part["distances"], "name": name, "xbins": bins, "autobinx": False, "marker": marker, "opacity": 0.75})
-        else:
-            words.append(f"{name}: none found ({part['tried']} poses)")
-    note = {"xref": "paper", "yref": "paper", "x": 1, "y": 0.98, "xanchor": "right", "yanchor": "top", "showarrow": False, "align": "right"}
+        if not part["found"]:
+            words.append(f"{name}: none found from {part['tried']} poses")
+            continue
+        colour, dash = STYLE[kind]
+        x = [0.0, *part["distances"], 1.05 * top]
+        y = [0.0, *(100 * (k + 1) / part["tried"] for k in range(part["found"])), 100 * part["found"] / part["tried"]]
+        line = {"color": colour, "width": 3, "dash": dash, "shape": "hv"}
+        hover = "%{y:.0f} % of the poses within %{x:.2f} rad<extra></extra>"
+        traces.append({"type": "scatter", "mode": "lines", "x": x, "y": y, "name": name, "line": line, "hovertemplate": hover})
+    corner = {"x": 0.98, "xanchor": "right", "yanchor": "bottom"}
+    note = {**corner, "xref": "paper", "yref": "paper", "y": 0.06, "showarrow": False, "align": "right", "text": "<br>".join(words)}
     layout = {
-        "barmode": "overlay",
-        "title": {"text": title, "font": {"size": 14}},
-        "xaxis": {"title": {"text": "distance to the nearest singularity found (rad)"}, "range": [0.0, 1.02 * top]},
-        "yaxis": {"title": {"text": "poses"}},
+        "title": {"text": title},
+        "xaxis": {"title": {"text": "distance to the nearest singularity found (rad)"}, "range": [0.0, 1.05 * top]},
+        "yaxis": {"title": {"text": "share of the poses (%)"}, "range": [0.0, 104.0]},
         "showlegend": True,
-        "annotations": [{**note, "text": "<br>".join(words)}] if words else [],
+        "legend": {**corner, "orientation": "v", "y": 0.16},
+        "annotations": [note] if words else [],
     }
     return figure(traces, layout)

@@ -2,7 +2,7 @@
 (() => {
   const root = document.documentElement;
   const read = (id) => JSON.parse(document.getElementById(id).textContent);
-  const figures = read("figures"), theme = read("theme");
+  const figures = read("figures"), theme = read("figure-theme");
   const charts = [...document.querySelectorAll(".chart")];
 
   // ---- light and dark: the reader's choice, else the system's; on paper always light
@@ -22,8 +22,13 @@
     const style = getComputedStyle(root), figure = figures[chart.dataset.figure];
     const layout = { ...figure.layout, template: theme, ...(width ? { width } : { autosize: true }) };
     layout.font = { family: getComputedStyle(document.body).fontFamily };
-    return Plotly.react(chart, coloured(figure.data, style), coloured(layout, style), { responsive: !width, displaylogo: false });
+    return Plotly.react(chart, coloured(figure.data, style), coloured(layout, style), settings(chart, width));
   }
+
+  const settings = (chart, width) => ({
+    responsive: !width, displaylogo: false, displayModeBar: chart.classList.contains("gl"),
+    modeBarButtons: [["toImage", "resetCameraDefault3d"]],
+  });
 
   function paint(name) {
     root.dataset.theme = name;

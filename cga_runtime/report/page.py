@@ -44,7 +44,7 @@ def render(context: Context, figures: Mapping[str, Figure]) -> str:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
-    environment.filters |= {"number": number, "degrees": degrees, "power": power, "vector": vector, "grounds": grounds, "subscripts": subscripts}
+    environment.filters |= {made.__name__: made for made in (number, degrees, power, vector, grounds, subscripts)}
     return environment.get_template("template.html").render(
         data=context.data,
         facts={
@@ -100,4 +100,4 @@ def grounds(row: Mapping[str, Any]) -> str:
     """What the class of a scheme rests on."""
     if not row["certified"]:
         return "no"
-    return {"admissible": "exact pose", "admissible_off_mirror": "exact pose; mirror: 4 exact points", "never": "structure"}[row["class"]]
+    return {"admissible": "exact pose", "admissible_off_mirror": "exact pose, mirror sampled", "never": "structure"}[row["class"]]

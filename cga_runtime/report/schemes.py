@@ -17,6 +17,9 @@ Array = NDArray[np.float64]
 EXAMPLE = (1, 2, 3, 7)
 """The paper's own admissible example: singular wherever q1 = q6."""
 
+MU = 0.5
+"""Where the colours of the maps of mu end, the same for both schemes."""
+
 
 def section(context: Context) -> dict[str, Any]:
     """Counts of the atlas and its table, one row a scheme."""
@@ -30,8 +33,17 @@ def scheme_name(actuated: Sequence[int]) -> str:
 
 
 def orbits(table: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The row of each orbit's representative, best median first."""
-    return sorted((row for row in table if row["actuated"] == row["orbit"]), key=lambda row: -float(row["mu_median"]))
+    """The row of each orbit's representative with the statistics of mu averaged over the orbit (mirror images differ by the sample only),
+    best median first.
+    """
+    members: dict[tuple[int, ...], list[dict[str, Any]]] = {}
+    for row in table:
+        members.setdefault(tuple(row["orbit"]), []).append(row)
+    rows = []
+    for orbit, found in members.items():
+        means = {key: float(np.mean([row[key] for row in found])) for key in ("mu_median", "mu_p05", "mu_below_001")}
+        rows.append({**next(row for row in found if tuple(row["actuated"]) == orbit), **means})
+    return sorted(rows, key=lambda row: -float(row["mu_median"]))
 
 
 def figures(context: Context) -> dict[str, Figure]:
@@ -48,7 +60,7 @@ def figures(context: Context) -> dict[str, Figure]:
 
 
 def _hover(row: dict[str, Any]) -> str:
-    lines = [f"<b>{scheme_name(row['actuated'])}</b>", CLASS_STYLE[row["class"]][0], row["reason"]]
+    lines = [f"<b>{scheme_name(row['actuated'])}</b> and mirror image", CLASS_STYLE[row["class"]][0], row["reason"]]
     lines.append(f"median {row['mu_median']:.3f}, 5 % quantile {row['mu_p05']:.3f}, below 0.01 in {100 * row['mu_below_001']:.1f} %")
     return "<br>".join(line for line in lines if line)
 
@@ -70,11 +82,25 @@ def _scatter(rows: Sequence[dict[str, Any]]) -> Figure:
             }
         )
     named = {id(row): row for key in ("mu_median", "mu_p05") for row in sorted(rows, key=lambda r: -float(r[key]))[:3]}
+    best = sorted(named.values(), key=lambda row: float(row["mu_median"]))
     marks = [
-        {"x": row["mu_median"], "y": row["mu_p05"], "text": scheme_name(row["actuated"]), "showarrow": False, "yshift": 13, "font": {"size": 11}}
-        for row in named.values()
+        # neighbours take turns: one is named on its left, the next on its right
+        {
+            "x": row["mu_median"],
+            "y": row["mu_p05"],
+            "text": scheme_name(row["actuated"]),
+            "showarrow": False,
+            "xshift": -9 if k % 2 == 0 else 9,
+            "xanchor": "right" if k % 2 == 0 else "left",
+            "font": {"size": 11},
+        }
+        for k, row in enumerate(best)
     ]
-    axes = {"xaxis": {"title": {"text": "μ, median over poses"}, "rangemode": "tozero"}, "yaxis": {"title": {"text": "μ, 5 % quantile"}, "rangemode": "tozero"}}
+    spans = [max(float(row[key]) for row in rows) for key in ("mu_median", "mu_p05")]
+    axes = {
+        f"{name}axis": {"title": {"text": f"μ, {words}"}, "range": [-0.03 * span, 1.16 * span]}
+        for name, words, span in (("x", "median over poses", spans[0]), ("y", "5 % quantile", spans[1]))
+    }
     return figure(traces, {**axes, "annotations": marks})
 
 
@@ -96,8 +122,8 @@ def _ranking(rows: Sequence[dict[str, Any]]) -> Figure:
             y = [row[key] for row in chosen]
             common = {"type": "scatter", "mode": "markers", "hovertemplate": "%{text}<extra></extra>", "name": f"{words}: {part}"}
             traces.append({**common, "x": x, "y": y, "text": text, "marker": marker})
-    axis = {"title": {"text": "actuated joints (one scheme of each orbit), best median first"}, "tickangle": -90, "tickfont": {"size": 9}, "type": "category"}
-    axis |= {"categoryorder": "array", "categoryarray": names, "tickmode": "linear"}
+    axis: dict[str, Any] = {"title": {"text": "actuated joints (one scheme of each orbit), best median first"}, "type": "category"}
+    axis |= {"categoryorder": "array", "categoryarray": names, "tickmode": "linear", "tickangle": -90, "tickfont": {"size": 9}}
     return figure(traces, {"xaxis": axis, "yaxis": {"title": {"text": "μ"}, "rangemode": "tozero"}, "height": 420})
 
 
@@ -113,9 +139,11 @@ def _pairs(context: Context, table: Sequence[dict[str, Any]]) -> Figure:
     names = [f"{j} {label(name)}" for j, name in zip(numbers, context.loop.joint_names, strict=True)]
     trace |= {"customdata": [[[a, b] for a in names] for b in names]}
     trace["hovertemplate"] = "%{customdata[0]}<br>%{customdata[1]}<br>best median μ %{z:.3f}<extra></extra>"
-    ticks = {"tickmode": "linear", "dtick": 1}
-    layout = {"xaxis": {**layout["xaxis"], **ticks}, "yaxis": {**layout["yaxis"], **ticks, "autorange": "reversed"}}
-    return figure([trace], {**layout, "title": {"text": "Which joints to actuate together", "font": {"size": 14}}})
+    trace["zsmooth"] = False
+    ticks = {"tickmode": "linear", "dtick": 1, "showgrid": False}
+    layout["xaxis"] |= {**ticks, "range": [0.5, n + 0.5]}
+    layout["yaxis"] |= {**ticks, "range": [n + 0.5, 0.5], "scaleanchor": "x"}
+    return figure([trace], {**layout, "title": {"text": "Which joints to actuate together"}})
 
 
 def _slice(context: Context, scheme: tuple[int, ...]) -> Figure:
@@ -127,5 +155,7 @@ def _slice(context: Context, scheme: tuple[int, ...]) -> Figure:
     q[...] = np.concatenate([right, context.mirror * right])
     q[..., 0], q[..., half] = np.meshgrid(*pitch)
     mu = conditioning(loop, q, [scheme])[..., 0]
-    trace, layout = heat_map(*pitch, mu, x_title="q1 right ShoulderPitch (rad)", y_title="q6 left ShoulderPitch (rad)", z_title="μ", z_max=0.5)
-    return figure([trace], {**layout, "title": {"text": f"Actuated {scheme_name(scheme)}", "font": {"size": 14}}})
+    trace, layout = heat_map(
+        *pitch, mu, x_title="q1 right ShoulderPitch (rad)", y_title="q6 left ShoulderPitch (rad)", z_title="μ", z_max=MU
+    )
+    return figure([trace], {**layout, "title": {"text": f"Actuated {scheme_name(scheme)}"}})

@@ -13,6 +13,15 @@ Array = NDArray[np.float64]
 WIDTH, HEIGHT, MARGIN = 640.0, 460.0, 34.0
 VIEWER = np.array([1.15, -1.0, 0.75])
 """From where one looks: in front of the robot, to its right, from above. The robot's left arm is on the right of the picture."""
+ARROW_HEAD = Markup(
+    '<defs><marker id="head" viewBox="0 0 8 8" refX="5" refY="4" markerWidth="5" markerHeight="5" orient="auto">'
+    '<path d="M0 0L8 4L0 8z" class="head"/></marker></defs>'
+)
+SHAPES = {
+    "U": '<circle cx="{0:.1f}" cy="{1:.1f}" r="6" class="mark {2}"><title>{3}</title></circle>',
+    "S": '<path d="M{0:.1f} {1:.1f}m-8 0l8 -8l8 8l-8 8z" class="mark {2}"><title>{3}</title></path>',
+    "hand": '<path d="M{0:.1f} {1:.1f}m-6 -6h12v12h-12z" class="mark {2}"><title>{3}</title></path>',
+}
 NAMES = (("x", "x forward"), ("y", "y left"), ("z", "z up"))
 
 
@@ -32,7 +41,7 @@ class View:
 
     def __call__(self, points: Array) -> Array:
         flat = (np.atleast_2d(points) @ self.axes.T - self.middle) * self.scale
-        return np.array([WIDTH / 2, HEIGHT / 2]) + flat * [1.0, -1.0]
+        return np.asarray([WIDTH / 2, HEIGHT / 2] + flat * [1.0, -1.0])
 
 
 def still(made: Drawing, title: str) -> Markup:
@@ -40,10 +49,7 @@ def still(made: Drawing, title: str) -> Markup:
     view = View(np.concatenate([line.points for line in made.lines]))
     parts = [_line(line, view) for line in made.lines] + [_mark(mark, view) for mark in made.marks]
     head = Markup('<svg class="still" viewBox="0 0 {:g} {:g}" role="img" aria-label="{}">').format(WIDTH, HEIGHT, title)
-    arrows = Markup('<defs><marker id="head" viewBox="0 0 8 8" refX="5" refY="4" markerWidth="5" markerHeight="5" orient="auto-start-reverse">') + Markup(
-        '<path d="M0 0L8 4L0 8z" class="head"/></marker></defs>'
-    )
-    return Markup("").join([head, arrows, *parts, _compass(view), Markup("</svg>")])
+    return Markup("").join([head, ARROW_HEAD, *parts, _compass(view), Markup("</svg>")])
 
 
 def _path(points: Array) -> str:
@@ -65,10 +71,7 @@ def _line(line: Line, view: View) -> Markup:
 
 def _mark(mark: Mark, view: View) -> Markup:
     x, y = view(mark.point)[0]
-    shape = {"U": '<circle cx="{0:.1f}" cy="{1:.1f}" r="6" ', "S": '<path d="M{0:.1f} {1:.1f}m-8 0l8 -8l8 8l-8 8z" ', "hand": '<path d="M{0:.1f} {1:.1f}m-6 -6h12v12h-12z" '}
-    body = Markup(shape[mark.kind]).format(float(x), float(y)) + Markup('class="mark {}"><title>{}</title></{}>').format(
-        mark.side, mark.name, "circle" if mark.kind == "U" else "path"
-    )
+    body = Markup(SHAPES[mark.kind]).format(float(x), float(y), mark.side, mark.name)
     return body + (_text(np.array([x, y - 13]), mark.tag, "name") if mark.tag else Markup(""))
 
 

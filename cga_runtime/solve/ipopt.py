@@ -21,6 +21,7 @@ ITERATIONS = 200
 OPTIONS: dict[str, Any] = {
     "ipopt.tol": 1e-9,
     "ipopt.max_iter": ITERATIONS,
+    "ipopt.bound_relax_factor": 0.0,  # by default results lie up to 1e-8 outside, and clipping them opens a closed chain by as much
     "ipopt.linear_solver": "mumps",  # the only sparse solver in CasADi's wheels that ran everywhere
     "ipopt.print_level": 0,
     "ipopt.sb": "yes",  # no banner
@@ -71,7 +72,7 @@ class Program:
         self.solver: Any = casadi.nlpsol(name, "ipopt", problem, OPTIONS)
 
     def solve(self, start: Array, parameters: Array, bounds: Bounds) -> Attempt:
-        """One run from `start`; the result lies inside the bounds of the variables (IPOPT relaxes them by 1e-8, which is taken back)."""
+        """One run from `start`; the result lies inside the bounds of the variables."""
         found = self.solver(
             x0=start,
             p=parameters,

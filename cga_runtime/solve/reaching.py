@@ -165,11 +165,12 @@ def middle(lower: Array, upper: Array) -> Array:
 
 
 def _starts(chains: tuple[Chain, ...], first: Array, count: int, seed: int) -> Iterator[Array]:
-    """The given start, then random ones inside the limits."""
+    """The given start, then random ones inside the limits, every other one only half as far away: margins are kept more easily near by."""
     yield first
     rng = np.random.default_rng(seed)
-    for _ in range(count - 1):
-        yield np.concatenate([chain.random(rng) for chain in chains])
+    for k in range(count - 1):
+        drawn = np.concatenate([chain.random(rng) for chain in chains])
+        yield 0.5 * (first + drawn) if k % 2 == 0 else drawn
 
 
 def _end_points(chains: tuple[Chain, ...], q: Array) -> list[Array]:

@@ -62,11 +62,11 @@ def limb_values(loop: ClosedChain, q: Array) -> Array:
 def hold(
     loop: ClosedChain,
     q0: Array,
-    grasp: ArrayLike | Motor | None,
-    object_point: ArrayLike | None,
-    limb_margin: float | None,
-    scheme_margin: tuple[Sequence[int], float] | None,
-    conditioning_weight: float,
+    grasp: ArrayLike | Motor | None = None,
+    object_point: ArrayLike | None = None,
+    limb_margin: float | None = None,
+    scheme_margin: tuple[Sequence[int], float] | None = None,
+    conditioning_weight: float = 0.0,
 ) -> Held:
     """Checks the arguments of `reach` that belong to a closed chain and evaluates what they are relative to at q0."""
     motor = loop.grasp(q0) if grasp is None else (grasp if isinstance(grasp, Motor) else Motor(read(grasp, "grasp", 8))).coefficients
@@ -95,7 +95,7 @@ def _scheme_at(
     try:
         actuated, fraction = scheme_margin
     except (TypeError, ValueError):
-        raise SchemeError(f"scheme_margin: {scheme_margin!r} given; actuated joints and a fraction needed, as ((1, 3, 7, 8), 0.5)") from None
+        raise SchemeError(f"scheme_margin: {scheme_margin!r} given; actuated joints and a fraction needed, as ((1, 3, 7, 8), .5)") from None
     scheme = tuple(j + 1 for j in loop.scheme(actuated)[0])
     try:
         loop.require_closed(q0, grasp)

@@ -1,27 +1,33 @@
 """A series of reaching problems of each kind for two arms, with what their solution took: the numbers behind the report's table.
 
-Targets come from random configurations inside the limits, so that every problem has a solution; the search begins at one fixed position.
+Targets come from random configurations inside the limits, so that every problem has a solution. The search begins at mid-range, or for an
+object that is held at one closed configuration.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from cga_runtime.coordinates import Array
 from cga_runtime.elements import Line, Plane, Point, PointPair, Sphere
-from cga_runtime.robot import Chain
 from cga_runtime.solve.reaching import STARTS, Solution, middle, reach
 from cga_runtime.solve.reaching_grasp import Held, hold
 from cga_runtime.spaces.closed_chain import CLOSED, ClosedChain
 
-Problem = tuple[Any, Any, dict[str, Any]]
-"""What is moved, the target, and further options of `reach`."""
+Problem = tuple[Any, Any, Array, dict[str, Any]]
+"""What is moved, the target, where the search begins, and further options of `reach`."""
+Series = Callable[[np.random.Generator], Iterator[Problem]]
+"""Endless problems of one task."""
 
+GRASP_POSE = (0.6, -0.35, 0.9, 0.9, 0.2, 0.6, 0.35, -0.9, -0.9, -0.2)
+"""A mirror-symmetric pose of the NAO's arms (rad), at which the hands grasp the object of the last three tasks."""
 SCHEME = (1, 3, 7, 8)
-"""Actuated joints of the scheme task: of two arms with five joints like the NAO's, the scheme with the best median conditioning."""
+"""Actuated joints of the scheme task: for the NAO the scheme with the best median conditioning."""
 LIMB_MARGIN = 0.35
 SCHEME_FRACTION = 0.5
 SPHERE_RADII = (0.03, 0.15)
@@ -36,79 +42,79 @@ def run_tasks(
     seed: int = 0,
     progress: Callable[[str], None] = lambda line: None,
     *,
-    q0: Array | None = None,
+    closed_q0: ArrayLike | None = None,
     starts: int = STARTS,
     scheme: Sequence[int] = SCHEME,
     limb_margin: float = LIMB_MARGIN,
     scheme_fraction: float = SCHEME_FRACTION,
 ) -> dict[str, dict[str, Any]]:
-    """Solves `tries` problems of each task from q0 (default: mid-range); a line to `progress` after each task.
+    """Solves `tries` problems of each task, each from `starts` positions at most; a line to `progress` after each task.
 
     Tasks: point, line, plane, sphere (right arm); point_pair, both_on_line (both arms); rigid_grasp, rigid_grasp_limb_margin,
-    rigid_grasp_scheme_margin (a point of the object that the hands hold at q0; targets come from configurations that keep the margin).
-    The limb task is left out for arms without wrist centre. Values: tried, solved, solved_first_start, and of the solved problems
-    iterations_median, iterations_max (of all starts), seconds_median; None where none was solved.
+    rigid_grasp_scheme_margin (an object that the hands hold at closed_q0, by default GRASP_POSE where that is within the limits, else
+    mid-range; targets come from configurations that keep the margin). The limb task is left out for arms without wrist centre.
+    Values: tried, solved, solved_first_start, and of the solved problems iterations_median, iterations_max (of all starts together),
+    seconds_median; None where none was solved. Raises what `reach` raises for closed_q0, scheme and margins.
     """
-    start = middle(loop.lower, loop.upper) if q0 is None else loop.check(q0)
+    closed = _closed(loop) if closed_q0 is None else loop.check(closed_q0)
     results: dict[str, dict[str, Any]] = {}
-    for index, (name, make) in enumerate(_tasks(loop, start, tuple(scheme), limb_margin, scheme_fraction).items()):
-        rng = np.random.default_rng([seed, index])
+    for index, (name, make) in enumerate({**_free_tasks(loop), **_held_tasks(loop, closed, scheme, limb_margin, scheme_fraction)}.items()):
+        problems = make(np.random.default_rng([seed, index]))
         solutions = []
-        for (what, target, options), _ in zip(make(rng), range(tries), strict=False):
-            first = start[: what.n] if isinstance(what, Chain) else start
-            solutions.append(reach(what, target, first, starts=starts, seed=seed, **options))
+        for _ in range(tries):
+            what, target, q0, options = next(problems)
+            solutions.append(reach(what, target, q0, starts=starts, seed=seed, **options))
         results[name] = _summary(solutions)
         progress(f"{name}: {results[name]['solved']} of {tries} solved, {results[name]['solved_first_start']} from the first start")
     return results
 
 
-def _tasks(
-    loop: ClosedChain, start: Array, scheme: tuple[int, ...], limb_margin: float, scheme_fraction: float
-) -> dict[str, Callable[[np.random.Generator], Iterator[Problem]]]:
-    """For each task an endless series of problems."""
+def _closed(loop: ClosedChain) -> Array:
+    pose = np.array(GRASP_POSE)
+    inside = loop.n == len(pose) and bool(((loop.lower <= pose) & (pose <= loop.upper)).all())
+    return pose if inside else middle(loop.lower, loop.upper)
+
+
+def _free_tasks(loop: ClosedChain) -> dict[str, Series]:
+    """The right arm to a primitive, and both arms to a point pair or a line."""
     arm, arms = loop.right, (loop.right, loop.left)
+    q1, q2 = middle(arm.lower, arm.upper), middle(loop.lower, loop.upper)
 
-    def points(rng: np.random.Generator) -> Iterator[Problem]:
-        while True:
-            yield arm, Point(arm.point(arm.random(rng))), {}
+    def sphere(x: Array, rng: np.random.Generator) -> Sphere:
+        n, r = rng.normal(size=3), rng.uniform(*SPHERE_RADII)
+        return Sphere.from_center_radius(x + r * n / np.linalg.norm(n), r)
 
-    def lines(rng: np.random.Generator) -> Iterator[Problem]:
-        while True:
-            yield arm, Line.from_point_direction(arm.point(arm.random(rng)), rng.normal(size=3)), {}
+    def one(make: Callable[[Array, np.random.Generator], Any]) -> Series:
+        return lambda rng: ((arm, make(arm.point(arm.random(rng)), rng), q1, {}) for _ in itertools.count())
 
-    def planes(rng: np.random.Generator) -> Iterator[Problem]:
-        while True:
-            yield arm, Plane.from_point_normal(arm.point(arm.random(rng)), rng.normal(size=3)), {}
+    def both(make: Callable[[Array, Array], Any]) -> Series:
+        return lambda rng: ((arms, make(*(chain.point(chain.random(rng)) for chain in arms)), q2, {}) for _ in itertools.count())
 
-    def spheres(rng: np.random.Generator) -> Iterator[Problem]:
-        while True:
-            x, n, r = arm.point(arm.random(rng)), rng.normal(size=3), rng.uniform(*SPHERE_RADII)
-            yield arm, Sphere.from_center_radius(x + r * n / np.linalg.norm(n), r), {}
+    return {
+        "point": one(lambda x, rng: Point(x)),
+        "line": one(lambda x, rng: Line.from_point_direction(x, rng.normal(size=3))),
+        "plane": one(lambda x, rng: Plane.from_point_normal(x, rng.normal(size=3))),
+        "sphere": one(sphere),
+        "point_pair": both(PointPair.from_points),
+        "both_on_line": both(Line.from_points),
+    }
 
-    def pairs(rng: np.random.Generator) -> Iterator[Problem]:
-        while True:
-            yield arms, PointPair.from_points(*(chain.point(chain.random(rng)) for chain in arms)), {}
 
-    def both_on_line(rng: np.random.Generator) -> Iterator[Problem]:
-        while True:
-            yield arms, Line.from_points(*(chain.point(chain.random(rng)) for chain in arms)), {}
+def _held_tasks(loop: ClosedChain, closed: Array, scheme: Sequence[int], limb_margin: float, scheme_fraction: float) -> dict[str, Series]:
+    """The right hand's origin, as a point of an object that both hands hold, to a point."""
 
-    def held(options: dict[str, Any]) -> Callable[[np.random.Generator], Iterator[Problem]]:
+    def held(**options: Any) -> Series:
         def problems(rng: np.random.Generator) -> Iterator[Problem]:
-            for q in _walk(hold(loop, start, **{**_HOLD, **options}), start, rng):
-                yield loop, Point(loop.right.point(q[: loop.right.n])), options
+            for q in _walk(hold(loop, closed, **options), closed, rng):
+                yield loop, Point(loop.right.point(q[: loop.right.n])), closed, options
 
         return problems
 
-    tasks = {"point": points, "line": lines, "plane": planes, "sphere": spheres, "point_pair": pairs, "both_on_line": both_on_line}
-    tasks["rigid_grasp"] = held({})
+    tasks = {"rigid_grasp": held()}
     if "limb_factors" in loop.unit.names:
-        tasks["rigid_grasp_limb_margin"] = held({"limb_margin": limb_margin})
-    tasks["rigid_grasp_scheme_margin"] = held({"scheme_margin": (scheme, scheme_fraction)})
+        tasks["rigid_grasp_limb_margin"] = held(limb_margin=limb_margin)
+    tasks["rigid_grasp_scheme_margin"] = held(scheme_margin=(scheme, scheme_fraction))
     return tasks
-
-
-_HOLD: dict[str, Any] = {"grasp": None, "object_point": None, "limb_margin": None, "scheme_margin": None, "conditioning_weight": 0.0}
 
 
 def _walk(held: Held, q: Array, rng: np.random.Generator) -> Iterator[Array]:

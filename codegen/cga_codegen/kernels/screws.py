@@ -100,11 +100,11 @@ def _to_axis(axis: Sequence[float]) -> Placement:
     }
     if (x, y, z) in cyclic:
         return Placement(cyclic[(x, y, z)])
-    # any rotation with third column = axis: reflect z to -axis, then turn; written out for axis != -z
+    # any rotation with third column = axis: the shortest turn from z, or from -z (after half a turn about x), whichever is nearer
     k = 1.0 / (1.0 + z) if z > -0.5 else 1.0 / (1.0 - z)
     if z > -0.5:
         return Placement(((1.0 - x * x * k, -x * y * k, x), (-x * y * k, 1.0 - y * y * k, y), (-x, -y, z)))
-    return Placement(((1.0 - x * x * k, x * y * k, x), (x * y * k, -1.0 + y * y * k, y), (x, -y, z)))
+    return Placement(((1.0 - x * x * k, x * y * k, x), (-x * y * k, -1.0 + y * y * k, y), (x, -y, z)))
 
 
 def _z_axes(chain: Chain) -> tuple[list[Placement], Placement, tuple[bool, ...]]:
