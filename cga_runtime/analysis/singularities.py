@@ -120,26 +120,22 @@ def limb_loci(loop: ClosedChain) -> tuple[LimbLocus, LimbLocus]:
 
 
 def limb_factor_identity(loop: ClosedChain, q: ArrayLike) -> Array:
-    """sqrt det(J_S^T J_S) - |f sin q4| |US| for both arms, (..., 2): zero up to rounding. J_S is the twist Jacobian about S."""
+    """sqrt det(J_S^T J_S) - |f sin q4| |US| for both arms, (..., 2): zero up to rounding. J_S is the twist Jacobian about S.
+
+    The left side is the product of J_S's singular values: at a singularity the root of a rounded determinant would be off by 1e-10.
+    """
     require_wrist_centres(loop)
     q = loop.check(q)
     twists, centres, factors = loop.twists(q), loop.kernel("wrist_centres")(q), loop.kernel("limb_factors")(q)
-    wrenches = loop.kernel("constraint_wrenches")(q)
     errors = []
     for arm, columns in enumerate((slice(0, loop.right.n), slice(loop.right.n, loop.n))):
         w, v = twists[..., :3, columns], twists[..., 3:, columns]
-        about = np.concatenate([w, v + np.cross(w, centres[..., arm, :, None], axis=-2)], axis=-2)
-        # |US|: the force through U and S has moment U x f about the origin, so U - S is (U - S).f along f
-        size = _arm_length(centres[..., arm, :], wrenches[..., arm, :], twists[..., columns])
-        gram = np.swapaxes(about, -1, -2) @ about
-        errors.append(np.sqrt(np.maximum(np.linalg.det(gram), 0.0)) - np.abs(factors[..., arm, 0] * factors[..., arm, 1]) * size)
+        v = v + np.cross(w, centres[..., arm, :, None], axis=-2)
+        volume = np.linalg.svd(np.concatenate([w, v], axis=-2), compute_uv=False).prod(axis=-1)
+        # S moves with axis 2 at the speed |s2 x (S - U)| = |US|, because US is perpendicular to axis 2
+        size = np.linalg.norm(v[..., 1], axis=-1)
+        errors.append(volume - np.abs(factors[..., arm, 0] * factors[..., arm, 1]) * size)
     return np.stack(errors, axis=-1)
-
-
-def _arm_length(centre: Array, wrench: Array, twists: Array) -> Array:
-    """|US| from the distance of S to the first two axes: |s2 x (S - U)| = |US| because US is perpendicular to axis 2."""
-    w, v = twists[..., :3, 1], twists[..., 3:, 1]
-    return np.asarray(np.linalg.norm(v + np.cross(w, centre), axis=-1))
 
 
 def nearest_singularity(

@@ -23,7 +23,7 @@ SLICE = 1e-3
 
 
 def section(context: Context) -> dict[str, Any]:
-    """One entry a kernel, named part/kernel. Nanoseconds are medians of rounds: scalar of one call from Python, batch per pose of a batch."""
+    """One entry a kernel, named part/kernel. Nanoseconds are medians: "scalar" of one call from Python, "batch" per pose of a batch."""
     rng = np.random.default_rng(context.seed)
     found = {}
     for part, unit, poses in _units(context, rng):

@@ -16,34 +16,33 @@ def ledger(data: dict[str, Any]) -> dict[str, list[str]]:
     structural = sum(row["certified"] for row in never)
     actuation = data["nearest"]["actuation"]["within_limits"]
     exact = [
-        f"{proved} of {data['schemes']['admissible']} admissible schemes: six independent passive screws at a pose with rational half-angle "
-        "tangents, rank by integer elimination without rounding. One such pose proves the rank almost everywhere.",
-        f"{structural} of {len(never)} schemes that are never admissible: two joint axes on one line, or six axes that meet one line, so the "
-        "rank is deficient in every pose.",
-        "q2*: a closed form of two constants of the arm. The factorisation of the limb Jacobian is an identity; the number above is the "
-        "rounding error of checking it.",
-        "Counts of schemes and orbits follow from the classes.",
+        f"{proved} of {data['schemes']['admissible']} admissible schemes: six independent passive screws at a pose with rational"
+        " half-angle tangents, rank by integer elimination without rounding. One such pose proves the rank almost everywhere.",
+        f"{structural} of {len(never)} schemes that are never admissible: two joint axes on one line, or six axes that meet one line,"
+        " so the rank is deficient in every pose.",
+        "q2*: a closed form of two constants of the arm. The factorisation of the limb Jacobian is an identity; the deviation given"
+        " above is the rounding of checking it.",
+        "Counts of schemes and orbits: they follow from the classes.",
     ]
     sampled = [
-        f"“Singular on every mirror pose”: exact rank deficiency at {POINTS} rational mirror-symmetric poses. That all of them should be so by "
-        "accident is not to be expected, but it is not a proof.",
-        f"Mobility and motion types: numerical ranks (singular values below {RANK_TOLERANCE:g} of the largest count as zero) at the poses named.",
-        f"μ: {data['schemes']['samples']} poses, joints uniform inside their limits, a free grasp each, all joints weighted alike. Expect the "
-        "third digit to change with the sample. Admissible schemes still have singular surfaces.",
-        f"Distances to singularities: local optimisation, so upper bounds. {actuation['found']} of {actuation['tried']} searches for an actuation "
-        "singularity inside the limits found one; a search that finds none proves nothing by itself.",
-        "Reaching: a solver that starts somewhere else may fail or succeed where this one did not. A failure does not prove that a target is "
-        "out of reach.",
+        f"“Singular on every mirror pose”: exact rank deficiency at {POINTS} rational mirror-symmetric poses. That all of them should be"
+        " so by accident is not to be expected, but it is not a proof.",
+        f"Mobility and motion types: numerical ranks at the poses named (singular values below {RANK_TOLERANCE:g} of the largest count as 0).",
+        f"μ: {data['schemes']['samples']} poses, joints uniform inside their limits, a free grasp each, all joints weighted alike. Expect"
+        " the third digit to change with the sample. Admissible schemes still have singular surfaces.",
+        f"Distances to singularities: local optimisation, so upper bounds. {actuation['found']} of {actuation['tried']} searches for an"
+        " actuation singularity inside the limits found one; a search that finds none proves nothing by itself.",
+        "Reaching: a solver that starts elsewhere may fail or succeed where this one did not. A failure does not prove that a target is"
+        " out of reach.",
         "Times: one machine, one run.",
     ]
     if structural < len(never):
-        other = len(never) - structural
         words = f"rank deficient at {POINTS} exact rational poses; no structural reason was found."
-        sampled.insert(0, f"The other {other} schemes called never admissible: {words}")
+        sampled.insert(0, f"The other {len(never) - structural} schemes called never admissible: {words}")
     missing = [
         "Self-collision, collision with the object, friction and the strength of the grip: the hands are taken as holding rigidly.",
         "Forces and torques of the actuators: μ is about speeds, with all joints equal.",
-        "NAO V6: public arm data was not found. V3.3, V4 and V5 share the arm geometry of the robot nao, V3.2 is nao_v32.",
+        "NAO V6: public arm data was not found. V3.3, V4 and V5 share the arm geometry of the robot nao; V3.2 is nao_v32.",
         "Certified bounds on distances: none of the searches is a proof that no singularity lies nearer.",
     ]
     return {"exact": exact, "sampled": sampled, "missing": missing}

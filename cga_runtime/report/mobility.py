@@ -49,7 +49,7 @@ def _pose(context: Context, q: Array) -> dict[str, Any]:
     found, arms = context.loop.mobility(q), context.arms(q)
     forces = [wrench for arm in found.wrenches for wrench in arm]
     twists = object_twists(arms, np.array([wrench.f for wrench in forces]))
-    powers = [abs(wrench.f @ twist["v"] + wrench.m @ twist["w"]) for wrench in forces for twist in twists]
+    powers = [abs(float(wrench.f @ twist["v"] + wrench.m @ twist["w"])) for wrench in forces for twist in twists]
     return {
         "q": q,
         "inside_limits": bool(((context.limits[0] <= q) & (q <= context.limits[1])).all()),
@@ -66,7 +66,7 @@ def object_twists(arms: Arms, forces: Array) -> list[dict[str, Any]]:
 
     A force along a line does no work on a translation normal to it, nor on a rotation about a line that it meets. So the object may
     translate along every direction normal to both forces, and turn about the edges of the tetrahedron U_R S_R S_L U_L that meet both:
-    the shoulder line, the line of the S centres, and the two lines across. Each twist: kind, name, w, v about the origin, point on its axis.
+    the shoulder line, the line of the S centres, and the two lines across. Each twist: kind, name, w, v about the origin, a point of its axis.
     """
     right, left = arms.right, arms.left
     twists: list[dict[str, Any]] = [
@@ -89,7 +89,7 @@ def object_twists(arms: Arms, forces: Array) -> list[dict[str, Any]]:
 
 
 def normals(forces: Array, shoulders: Array) -> Array:
-    """Orthonormal directions normal to all forces, (k, 3); where there are two of them, one lies in the plane of the forces and the shoulder line."""
+    """Orthonormal directions normal to all forces, (k, 3); of two, the first lies in the plane of the forces and the shoulder line."""
     _, values, rows = np.linalg.svd(forces)
     free: Array = rows[int((values > SPAN).sum()) :]
     within = free @ shoulders

@@ -134,9 +134,9 @@ def _pairs(context: Context, table: Sequence[dict[str, Any]]) -> Figure:
     for i in range(1, n + 1):
         for j in range(1, n + 1):
             z[i - 1, j - 1] = max(row["mu_median"] for row in table if i in row["actuated"] and j in row["actuated"])
-    numbers = np.arange(1, n + 1)
+    numbers = np.arange(1.0, n + 1.0)
     trace, layout = heat_map(numbers, numbers, z, x_title="joint", y_title="joint", z_title="best median μ")
-    names = [f"{j} {label(name)}" for j, name in zip(numbers, context.loop.joint_names, strict=True)]
+    names = [f"{j} {label(name)}" for j, name in enumerate(context.loop.joint_names, 1)]
     trace |= {"customdata": [[[a, b] for a in names] for b in names]}
     trace["hovertemplate"] = "%{customdata[0]}<br>%{customdata[1]}<br>best median μ %{z:.3f}<extra></extra>"
     trace["zsmooth"] = False
@@ -156,6 +156,6 @@ def _slice(context: Context, scheme: tuple[int, ...]) -> Figure:
     q[..., 0], q[..., half] = np.meshgrid(*pitch)
     mu = conditioning(loop, q, [scheme])[..., 0]
     trace, layout = heat_map(
-        *pitch, mu, x_title="q1 right ShoulderPitch (rad)", y_title="q6 left ShoulderPitch (rad)", z_title="μ", z_max=MU
+        pitch[0], pitch[1], mu, x_title="q1 right ShoulderPitch (rad)", y_title="q6 left ShoulderPitch (rad)", z_title="μ", z_max=MU
     )
     return figure([trace], {**layout, "title": {"text": f"Actuated {scheme_name(scheme)}"}})
