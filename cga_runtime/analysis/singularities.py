@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cga_runtime.errors import DegenerateError, SchemeError, UnknownNameError, WrongSizeError
+from cga_runtime.errors import DegenerateError, SchemeError, UnknownNameError
 from cga_runtime.solve.ipopt import Bounds, Program
 from cga_runtime.spaces.closed_chain import LENGTH, ClosedChain
 
@@ -27,12 +27,8 @@ KINDS = ("limb", "constraint", "actuation")
 FACTORS = {"f right": (0, 0), "sin q4 right": (0, 1), "f left": (1, 0), "sin q4 left": (1, 1)}
 BOX = 0.5 * pi + 0.01
 """Half-width (rad) of the box of a search without limits: it holds a zero of each limb factor, and keeps IPOPT from other branches."""
-ZERO = 1e-6
-"""Largest value of a factor (f in units of LENGTH) that counts as zero when a solution is checked. IPOPT oversteps bounds by up to 2e-8; where a
-solution lies on a joint limit, taking that back moves a determinant by 2e-8 times its gradient, so 1e-7 would refuse sound solutions.
-"""
-
-
+ZERO = 1e-7
+"""Largest value of a factor (f in units of LENGTH) that counts as zero when a solution is checked."""
 ROUNDS = 8
 """Times that a box is shrunk after sampling found the other sign inside."""
 
@@ -156,16 +152,18 @@ def nearest_singularity(
         raise UnknownNameError("kind of singularity", kind, KINDS)
     if (kind == "actuation") != (actuated is not None):
         raise SchemeError(f"kind {kind!r} {'needs' if actuated is None else 'takes no'} actuated joints")
-    at = _one(loop, q)
+    at = loop.check_one(q)
     lower, upper = (loop.lower, loop.upper) if within_limits else (at - BOX, at + BOX)
     scheme = None if actuated is None else tuple(j + 1 for j in loop.scheme(actuated)[0])
     rng = np.random.default_rng(seed)
+    # joints without limits: starts within half a turn
+    low, high = np.where(np.isfinite(lower), lower, at - pi), np.where(np.isfinite(upper), upper, at + pi)
     found = []
     for factor in _factors(loop, kind):
         zero = np.zeros(factor.count(",") + 1)
         bounds = Bounds(lower, upper, zero, zero)
         program = _nearest_program(loop, factor, scheme)
-        guesses = [np.clip(at, lower, upper), *rng.uniform(lower, upper, (starts - 1, loop.n))]
+        guesses = [np.clip(at, lower, upper), *rng.uniform(low, high, (starts - 1, loop.n))]
         for solution in (program.solve(guess, at, bounds).x for guess in guesses):
             # judged by the compiled kernels, not by the expressions that were solved
             value = float(np.abs(_values(loop, factor, scheme, solution)).max())
@@ -182,7 +180,7 @@ def singularity_free_box(
     loop: ClosedChain, q: ArrayLike, actuated: Sequence[int], starts: int = 5, samples: int = 2000, seed: int = 0
 ) -> SingularityFreeBox:
     """min t subject to |q' - q|_inf <= t and D(q') = 0, from several starts; then a sampling check. Never certified."""
-    at = _one(loop, q)
+    at = loop.check_one(q)
     scheme = tuple(j + 1 for j in loop.scheme(actuated)[0])
     program = _box_program(loop, scheme)
     zero = np.zeros(1 + 2 * loop.n)
@@ -218,13 +216,6 @@ def singularity_free_box(
             break
         best = again
     return SingularityFreeBox(radius(best), best, True, samples, changes)
-
-
-def _one(loop: ClosedChain, q: ArrayLike) -> Array:
-    at = loop.check(q)
-    if at.ndim != 1:
-        raise WrongSizeError(f"one configuration of shape ({loop.n},) needed, {at.shape} given")
-    return at
 
 
 def _factors(loop: ClosedChain, kind: str) -> tuple[str, ...]:

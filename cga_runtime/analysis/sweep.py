@@ -34,7 +34,7 @@ def close_loop(loop: ClosedChain, q: ArrayLike, grasp: ArrayLike, steps: int = N
 
     Damping 1e-12 + 1e-3 |e|^2, steps capped at 0.5 rad; joint limits are not considered.
     """
-    at = loop.check(q).copy()
+    at = loop.check_one(q).copy()
     for k in range(steps + 1):
         error = loop.closure_error(at, grasp)
         if np.abs(error).max() < CLOSED:
@@ -53,7 +53,7 @@ def walk(loop: ClosedChain, q0: ArrayLike, steps: int, rng: np.random.Generator,
     Each step goes along a random null direction of the closure Jacobian and is then closed by Newton; steps that fail or leave the
     limits are rejected. It explores one connected component only.
     """
-    at = loop.check(q0)
+    at = loop.check_one(q0)
     grasp = loop.grasp(at)
     found, newton, rejected = [at], [], 0
     for _ in range(steps):

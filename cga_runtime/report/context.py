@@ -40,7 +40,7 @@ class Sizes:
 
     samples: int = 3000
     tries: int = 100
-    poses: int = 24
+    poses: int = 20
     grid: int = 81
     rounds: int = 7
 

@@ -27,7 +27,7 @@ def ledger(data: dict[str, Any]) -> dict[str, list[str]]:
     sampled = [
         f"“Singular on every mirror pose”: exact rank deficiency at {POINTS} rational mirror-symmetric poses. That all of them should be"
         " so by accident is not to be expected, but it is not a proof.",
-        f"Mobility and motion types: numerical ranks at the poses named (singular values below {RANK_TOLERANCE:g} of the largest count as 0).",
+        f"Mobility and motion types: numerical ranks at the poses named (below {RANK_TOLERANCE:g} of the largest singular value).",
         f"μ: {data['schemes']['samples']} poses, joints uniform inside their limits, a free grasp each, all joints weighted alike. Expect"
         " the third digit to change with the sample. Admissible schemes still have singular surfaces.",
         f"Distances to singularities: local optimisation, so upper bounds. {actuation['found']} of {actuation['tried']} searches for an"

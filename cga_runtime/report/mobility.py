@@ -50,12 +50,13 @@ def _pose(context: Context, q: Array) -> dict[str, Any]:
     forces = [wrench for arm in found.wrenches for wrench in arm]
     twists = object_twists(arms, np.array([wrench.f for wrench in forces]))
     powers = [abs(float(wrench.f @ twist["v"] + wrench.m @ twist["w"])) for wrench in forces for twist in twists]
+    f, g = forces[0].f, forces[-1].f
     return {
         "q": q,
         "inside_limits": bool(((context.limits[0] <= q) & (q <= context.limits[1])).all()),
         **_numbers(found),
         "wrenches": [{"force": w.f, "moment": w.m, "pitch": w.pitch if np.isfinite(w.pitch) else None, "point": w.point} for w in forces],
-        "angle_between_forces": float(np.arccos(min(1.0, abs(forces[0].f @ forces[1].f)))),
+        "angle_between_forces": float(np.arctan2(np.linalg.norm(np.cross(f, g)), abs(float(f @ g)))),
         "twists": twists,
         "reciprocity_error": max(powers),
     }
@@ -66,7 +67,8 @@ def object_twists(arms: Arms, forces: Array) -> list[dict[str, Any]]:
 
     A force along a line does no work on a translation normal to it, nor on a rotation about a line that it meets. So the object may
     translate along every direction normal to both forces, and turn about the edges of the tetrahedron U_R S_R S_L U_L that meet both:
-    the shoulder line, the line of the S centres, and the two lines across. Each twist: kind, name, w, v about the origin, a point of its axis.
+    the shoulder line, the line of the S centres, and the two lines across. Each twist: kind, name, w and v about the origin, a point on
+    its axis.
     """
     right, left = arms.right, arms.left
     twists: list[dict[str, Any]] = [

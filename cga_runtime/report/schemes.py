@@ -81,26 +81,32 @@ def _scatter(rows: Sequence[dict[str, Any]]) -> Figure:
                 "marker": {"color": colour, "symbol": symbol, "size": 9, "opacity": 0.85, "line": {"color": "var(--card)", "width": 1}},
             }
         )
-    named = {id(row): row for key in ("mu_median", "mu_p05") for row in sorted(rows, key=lambda r: -float(r[key]))[:3]}
-    best = sorted(named.values(), key=lambda row: float(row["mu_median"]))
-    marks = [
-        # neighbours take turns: one is named on its left, the next on its right
-        {
-            "x": row["mu_median"],
-            "y": row["mu_p05"],
-            "text": scheme_name(row["actuated"]),
-            "showarrow": False,
-            "xshift": -9 if k % 2 == 0 else 9,
-            "xanchor": "right" if k % 2 == 0 else "left",
-            "font": {"size": 11},
-        }
-        for k, row in enumerate(best)
-    ]
     spans = [max(float(row[key]) for row in rows) for key in ("mu_median", "mu_p05")]
     axes = {
-        f"{name}axis": {"title": {"text": f"μ, {words}"}, "range": [-0.03 * span, 1.16 * span]}
+        f"{name}axis": {"title": {"text": f"μ, {words}"}, "range": [-0.03 * span, 1.2 * span]}
         for name, words, span in (("x", "median over poses", spans[0]), ("y", "5 % quantile", spans[1]))
     }
+    best = {id(row): row for key in ("mu_median", "mu_p05") for row in sorted(rows, key=lambda r: -float(r[key]))[:3]}
+    groups: list[list[dict[str, Any]]] = []
+    for row in best.values():  # orbits that fall on one spot share a label
+        near = (g for g in groups if all(abs(row[k] - g[0][k]) < 0.02 * s for k, s in zip(("mu_median", "mu_p05"), spans, strict=True)))
+        if (group := next(near, None)) is None:
+            groups.append([row])
+        else:
+            group.append(row)
+    marks = [
+        {
+            "x": group[0]["mu_median"],
+            "y": group[0]["mu_p05"],
+            "text": "<br>".join(scheme_name(row["actuated"]) for row in group),
+            "showarrow": False,
+            "xshift": 9,
+            "xanchor": "left",
+            "align": "left",
+            "font": {"size": 11},
+        }
+        for group in groups
+    ]
     return figure(traces, {**axes, "annotations": marks})
 
 

@@ -60,8 +60,9 @@ def _line(line: Line, view: View) -> Markup:
     flat = view(line.points)
     path, title = _path(flat), Markup("<title>{}</title>").format(line.name)
     kind = f"{line.kind} {line.side}".strip()
-    # the ground colour around a line lets it pass over what lies behind
-    drawn = Markup('<path class="under" d="{0}"/><path class="{1}" d="{0}">{2}</path>').format(path, kind, title)
+    drawn = Markup('<path class="{1}" d="{0}">{2}</path>').format(path, kind, title)
+    if line.kind in ("link", "object"):  # the ground colour around it lets it pass over what lies behind
+        drawn = Markup('<path class="under" d="{}"/>').format(path) + drawn
     if not line.tag:
         return drawn
     before, end = flat[-2:]
@@ -81,7 +82,7 @@ def _text(at: Array, words: str, kind: str) -> Markup:
 
 def _compass(view: View) -> Markup:
     """The three directions of the root frame, in a corner."""
-    corner = np.array([64.0, HEIGHT - 50.0])
+    corner = np.array([WIDTH - 82.0, 62.0])
     parts = []
     for (_, words), direction in zip(NAMES, np.eye(3), strict=True):
         tip = (view.axes @ direction) * [1.0, -1.0]

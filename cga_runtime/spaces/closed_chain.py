@@ -75,6 +75,13 @@ class ClosedChain:
             raise WrongSizeError(f"q: shape {array.shape} given, (..., {self.n}) needed: {', '.join(self.joint_names)}")
         return array
 
+    def check_one(self, q: ArrayLike) -> Array:
+        """q as one finite configuration (n,), for questions that have no batch. Raises WrongSizeError, NotFiniteError."""
+        array = self.check(q)
+        if array.ndim != 1:
+            raise WrongSizeError(f"one configuration of shape ({self.n},) needed, {array.shape} given")
+        return array
+
     def screws(self, q: ArrayLike) -> Array:
         """World screws of all joints as bivectors e12 e13 e23 e1i e2i e3i, (..., 6, n)."""
         return self.kernel("screws")(q)

@@ -6,10 +6,10 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from cga_codegen.algebra import blade_types
-from cga_codegen.algebra.multivector import Multivector
 
 import cga_runtime as cga
+from cga_codegen.algebra import blade_types
+from cga_codegen.algebra.multivector import Multivector
 from cga_runtime.elements import Circle, Line, Motor, Plane, Point, PointPair, Sphere
 
 KINDS = {
@@ -78,7 +78,8 @@ def test_orientation_follows_the_order_of_the_points(rng):
     for kind, points in ((PointPair, (a, b)), (Line, (a, b)), (Circle, (a, b, c)), (Plane, (a, b, c))):
         there, back = kind.from_points(*points), kind.from_points(*points[1::-1], *points[2:])
         np.testing.assert_allclose(there.coefficients, -back.coefficients, atol=1e-13)
-    np.testing.assert_allclose(Plane.from_points(a, b, c).normal, np.cross(b - a, c - a) / np.linalg.norm(np.cross(b - a, c - a)), atol=1e-15)
+    n = np.cross(b - a, c - a)
+    np.testing.assert_allclose(Plane.from_points(a, b, c).normal, n / np.linalg.norm(n), atol=1e-15)
     np.testing.assert_allclose(Line.from_points(a, b).direction, (b - a) / np.linalg.norm(b - a), atol=1e-15)
     np.testing.assert_allclose(Sphere.from_points(a, b, c, d).coefficients, Sphere.from_points(b, a, c, d).coefficients, atol=1e-11)
 

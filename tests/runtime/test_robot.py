@@ -3,8 +3,8 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from cga_codegen.robots.bundled import bundled_robots as bundled_files
 
+from cga_codegen.robots.bundled import bundled_robots as bundled_files
 from cga_runtime.robot import FRAMES, Chain, load_robot
 
 DRAWS = 10_000
@@ -68,9 +68,10 @@ def test_point_motor_and_screws_agree_with_the_pose(robot):
     for k in range(0, DRAWS, 100):
         rotation = quaternion(a[k], -b23[k], b13[k], -b12[k]).toRotationMatrix()
         assert np.abs(rotation - pose[k, :3, :3]).max() < 1e-13
-    t = -2.0 * np.stack(
-        [a * e1i + b12 * e2i + b13 * e3i + b23 * e123i, a * e2i - b12 * e1i + b23 * e3i - b13 * e123i, a * e3i - b13 * e1i - b23 * e2i + b12 * e123i], -1
-    )
+    x = a * e1i + b12 * e2i + b13 * e3i + b23 * e123i
+    y = a * e2i - b12 * e1i + b23 * e3i - b13 * e123i
+    z = a * e3i - b13 * e1i - b23 * e2i + b12 * e123i
+    t = -2.0 * np.stack([x, y, z], axis=-1)
     assert np.abs(t - pose[:, :3, 3]).max() < 1e-14
     assert np.abs((motor[:, :4] ** 2).sum(axis=1) - 1.0).max() < 1e-14
     world = chain.jacobian(q, "WORLD", order="bivector")
