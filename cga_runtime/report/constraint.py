@@ -86,6 +86,6 @@ def _figure(robot: Robot, loop: ClosedChain, grid: Array, z: Array, top: float) 
         "hovertemplate": "q2* = %{x:.4f}, q7* = %{y:.4f}<extra>constraint singularity</extra>",
     }
     inside = right.inside and left.inside
-    title = f"{label(robot.name)}: constraint singularity {'inside' if inside else 'outside'} the limits"
+    title = f"{label(robot.name)}: {'inside' if inside else 'outside'} the limits"
     marks = [words, on_map(right.q2_star, left.q2_star, "q2*, q7*", yshift=16)]
     return figure([trace, box, star], {**layout, "title": {"text": title}, "annotations": marks})

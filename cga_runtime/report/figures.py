@@ -39,9 +39,9 @@ THEME: Figure = {
     "layout": {
         "paper_bgcolor": "rgba(0,0,0,0)",
         "plot_bgcolor": "rgba(0,0,0,0)",
-        "font": {"color": "var(--ink)", "size": 13},
+        "font": {"color": "var(--ink)"},
         "margin": {"l": 60, "r": 20, "t": 44, "b": 56},
-        "title": {"x": 0.0, "xref": "paper", "xanchor": "left", "y": 0.97, "yanchor": "top", "font": {"size": 15}},
+        "title": {"x": 0.0, "xref": "paper", "xanchor": "left", "y": 0.97, "yanchor": "top"},
         "modebar": {"bgcolor": "rgba(0,0,0,0)", "color": "var(--faint)", "activecolor": "var(--accent)"},
         "hoverlabel": {"bgcolor": "var(--card)", "bordercolor": "var(--faint)", "font": {"color": "var(--ink)"}},
         "legend": {"orientation": "h", "yanchor": "bottom", "y": 1.02, "x": 0},

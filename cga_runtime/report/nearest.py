@@ -49,27 +49,22 @@ STYLE = {"limb": ("var(--right)", "solid"), "constraint": ("var(--force)", "dash
 
 
 def _shares(data: dict[str, Any], region: str, title: str, top: float) -> Figure:
-    traces, words = [], []
+    traces: list[dict[str, Any]] = []
     for kind in KINDS:
-        part = data[kind][region]
+        part, (colour, dash) = data[kind][region], STYLE[kind]
         name = kind if kind != "actuation" else f"actuation of {scheme_name(data[kind]['scheme'])}"
-        if not part["found"]:
-            words.append(f"{name}: none found from {part['tried']} poses")
-            continue
-        colour, dash = STYLE[kind]
         x = [0.0, *part["distances"], 1.05 * top]
         y = [0.0, *(100 * (k + 1) / part["tried"] for k in range(part["found"])), 100 * part["found"] / part["tried"]]
+        if not part["found"]:
+            x, y, name = [None], [None], f"{name}: none found"  # named in the legend all the same
         line = {"color": colour, "width": 3, "dash": dash, "shape": "hv"}
         hover = "%{y:.0f} % of the poses within %{x:.2f} rad<extra></extra>"
         traces.append({"type": "scatter", "mode": "lines", "x": x, "y": y, "name": name, "line": line, "hovertemplate": hover})
-    corner = {"x": 0.98, "xanchor": "right", "yanchor": "bottom"}
-    note = {**corner, "xref": "paper", "yref": "paper", "y": 0.06, "showarrow": False, "align": "right", "text": "<br>".join(words)}
     layout = {
         "title": {"text": title},
-        "xaxis": {"title": {"text": "distance to the nearest singularity found (rad)"}, "range": [0.0, 1.05 * top]},
+        "xaxis": {"title": {"text": "distance found (rad)"}, "range": [0.0, 1.05 * top]},
         "yaxis": {"title": {"text": "share of the poses (%)"}, "range": [0.0, 104.0]},
         "showlegend": True,
-        "legend": {**corner, "orientation": "v", "y": 0.16},
-        "annotations": [note] if words else [],
+        "legend": {"orientation": "v", "x": 0.98, "xanchor": "right", "y": 0.05, "yanchor": "bottom"},
     }
     return figure(traces, layout)

@@ -18,10 +18,10 @@
     return value;
   }
 
-  function draw(chart, width) {
+  function draw(chart, width, height) {
     const style = getComputedStyle(root), figure = figures[chart.dataset.figure];
-    const layout = { ...figure.layout, template: theme, ...(width ? { width } : { autosize: true }) };
-    layout.font = { family: getComputedStyle(document.body).fontFamily };
+    const layout = { ...figure.layout, template: theme, ...(width ? { width, height } : { autosize: true }) };
+    layout.font = { family: getComputedStyle(document.body).fontFamily, size: width ? 10 : 13 };
     return Plotly.react(chart, coloured(figure.data, style), coloured(layout, style), settings(chart, width));
   }
 
@@ -43,7 +43,10 @@
 
   addEventListener("beforeprint", () => {
     root.dataset.theme = "light";
-    for (const chart of charts) if (chart.dataset.drawn && !chart.classList.contains("gl")) draw(chart, chart.closest(".pair") ? 310 : 660);
+    for (const chart of charts) {
+      const half = chart.closest(".pair") !== null;
+      if (chart.dataset.drawn && !chart.classList.contains("gl")) draw(chart, half ? 310 : 650, half ? 300 : 380);
+    }
   });
   addEventListener("afterprint", () => paint(wanted()));
 

@@ -22,7 +22,7 @@ def figures(context: Context) -> dict[str, Figure]:
         "orientation": "h",
         "y": [name for name, _ in tasks],
         "x": [1e3 * entry["seconds_median"] for _, entry in tasks],
-        "text": [f"{entry['solved']} of {entry['tried']} solved, {entry['solved_first_start']} from the first start" for _, entry in tasks],
+        "text": [f"{entry['solved']} of {entry['tried']} solved" for _, entry in tasks],
         "textposition": "auto",
         "insidetextanchor": "end",
         "hovertemplate": "%{y}<br>%{x:.1f} ms<br>%{text}<extra></extra>",
@@ -31,4 +31,4 @@ def figures(context: Context) -> dict[str, Figure]:
         "cliponaxis": False,
     }
     layout = {"xaxis": {"title": {"text": "time of a solved problem, median (ms)"}}, "yaxis": {"autorange": "reversed"}, "bargap": 0.35}
-    return {"reaching-times": figure([bars], {**layout, "margin": {"l": 190, "t": 10}})}
+    return {"reaching-times": figure([bars], {**layout, "margin": {"t": 10}})}

@@ -27,7 +27,7 @@ TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class Solution:
-    """Joint positions that reach a target, or the nearest miss.
+    """Joint positions that reach a target, or the best attempt.
 
     q: (n,), always inside the limits. success: target reached within the tolerance, grasp closed, margins kept, all measured anew.
     residual: largest distance (m) of a moved point from its target. iterations, starts, seconds (wall time): of all starts together;
@@ -108,7 +108,7 @@ def reach(
     if success:
         status = f"reached (IPOPT: {best.attempt.status})"
     else:
-        status = f"unreachable or not found in {best.starts} starts: nearest miss {miss:.2g} m (IPOPT: {best.attempt.status})"
+        status = f"unreachable or not found in {best.starts} starts: closest result {miss:.2g} m away (IPOPT: {best.attempt.status})"
     return Solution(q, success, status, best.iterations, best.attempt.iterations, miss, best.seconds, best.starts)
 
 

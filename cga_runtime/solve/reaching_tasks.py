@@ -105,7 +105,7 @@ def _held_tasks(loop: ClosedChain, closed: Array, scheme: Sequence[int], limb_ma
 
     def held(**options: Any) -> Series:
         def problems(rng: np.random.Generator) -> Iterator[Problem]:
-            for q in _walk(hold(loop, closed, **options), closed, rng):
+            for q in closed_configurations(hold(loop, closed, **options), closed, rng):
                 yield loop, Point(loop.right.point(q[: loop.right.n])), closed, options
 
         return problems
@@ -117,10 +117,10 @@ def _held_tasks(loop: ClosedChain, closed: Array, scheme: Sequence[int], limb_ma
     return tasks
 
 
-def _walk(held: Held, q: Array, rng: np.random.Generator) -> Iterator[Array]:
-    """A random walk over the configurations that hold the grasp within limits and margins: tangent steps, brought back by Newton's method.
+def closed_configurations(held: Held, q: Array, rng: np.random.Generator) -> Iterator[Array]:
+    """A random walk from q over the configurations that hold the grasp within limits and margins; every WALK steps one is given.
 
-    A step that leaves them is not taken, so that a walk cannot get stuck outside; every WALK steps the position is a sample.
+    A step along the tangent space is brought back by Newton's method; one that leaves limits or margins is not taken.
     """
     loop = held.loop
     while True:

@@ -1,6 +1,5 @@
 """Names in robot files reach generated text, symbols and paths only in a form that can do no harm and that keeps them apart."""
 
-
 import numpy as np
 import pytest
 
@@ -52,8 +51,7 @@ def test_names_that_differ_stay_different():
 
 
 def test_two_subjects_of_one_name_are_refused():
-    arms = [f"{side}_with_right" for side in ("left", "left_with_left")]
-    model = robot("left", "right", *arms)
+    model = robot("left", "right", "left_with_right")
     generate_robot(model, ["left", "right"], [("left", "right")], silent)
     with pytest.raises(ModelError, match="^small: two chains or loops would be called robots/small/left_with_right.c; generate"):
         generate_robot(model, ["left_with_right"], [("left", "right")], silent)

@@ -7,14 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import cga_runtime as cga
 from cga_codegen import cli
 from cga_codegen.emit import manifest as writer
 from cga_codegen.emit.manifest import GeneratedFolderError
 from cga_codegen.generate import generate
 from cga_codegen.robots.from_urdf import load_urdf
 from cga_runtime import StaleKernelError
-from cga_runtime.kernels import library
+from cga_runtime.kernels import Library
 
 LINK = '<link name="{0}"/><joint name="to {0}" type="continuous"><parent link="base"/><child link="{0}"/></joint>'
 
@@ -34,7 +33,10 @@ def files(folder: Path) -> dict[str, bytes]:
 
 
 def pose(folder: Path, frame: str) -> np.ndarray:
-    return cga.load_robot("small", folder=folder).chain(frame).pose([0.0])
+    """As a new process would find it: the manifest, the description and the kernels are read anew."""
+    home = Library(folder)
+    home.read("robots/small/robot.json")
+    return home.unit(f"robots/small/{frame}").kernel("pose")([0.0])
 
 
 class Killed(BaseException):
@@ -65,7 +67,6 @@ def test_a_run_killed_between_two_files(tmp_path, monkeypatch, first, after):
             pose(folder, "a")
     else:  # all that was written is as it was before
         assert np.array_equal(pose(folder, "a"), np.eye(4))
-    library.cache_clear()
     write(folder, "a", "b")
     assert np.array_equal(pose(folder, "b"), np.eye(4))
 
@@ -74,10 +75,10 @@ def test_a_file_appears_whole_or_not_at_all(tmp_path, monkeypatch):
     write(tmp_path / "out", "a")
     before = files(tmp_path / "out")
 
-    def full(_):
+    def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(os, "replace", lambda *_: full(_))
+    monkeypatch.setattr(os, "replace", full)
     with pytest.raises(GeneratedFolderError, match="^cannot write .*: No space left on device$"):
         write(tmp_path / "out", "b")
     monkeypatch.undo()
