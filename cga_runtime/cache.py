@@ -46,11 +46,13 @@ def _location() -> Path:
     root = os.environ.get("XDG_CACHE_HOME", "")
     if os.path.isabs(root):
         return Path(root) / "cga"
+    default = Path.home() / ".cache" / "cga"
     try:
         import platformdirs
     except ImportError:  # an extra; the XDG default serves where it is missing
-        return Path.home() / ".cache" / "cga"
-    return Path(platformdirs.user_cache_dir("cga", appauthor=False))
+        return default
+    folder = Path(platformdirs.user_cache_dir("cga", appauthor=False))
+    return folder if folder.is_absolute() else default  # older versions follow a relative XDG_CACHE_HOME, which the standard forbids
 
 
 def _check_private(folder: Path) -> None:

@@ -9,6 +9,7 @@ import importlib.util
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -157,6 +158,7 @@ def _unit(key: dict[str, Any], subject: Callable[[], Any]) -> Unit:
     return opened.unit(next(iter(opened.manifest["units"])))
 
 
+@cache
 def _generator_digest() -> str:
     """Digest of the generator's own sources: kernels kept by another version of it are not used."""
     import cga_codegen

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from math import atan2, pi
 from typing import Any
 
@@ -29,6 +29,8 @@ BOX = 0.5 * pi + 0.01
 """Half-width (rad) of the box of a search without limits: it holds a zero of each limb factor, and keeps IPOPT from other branches."""
 ZERO = 1e-7
 """Largest value of a factor (f in units of LENGTH) that counts as zero when a solution is checked."""
+PROGRAMS = 256
+"""IPOPT programs kept: one for each loop and factor or scheme."""
 ROUNDS = 8
 """Times that a box is shrunk after sampling found the other sign inside."""
 
@@ -245,7 +247,7 @@ def _values(loop: ClosedChain, factor: str, scheme: tuple[int, ...] | None, q: A
     return np.array([limb[FACTORS[name]] for name in factor.split(", ")])
 
 
-@cache
+@lru_cache(PROGRAMS)
 def _nearest_program(loop: ClosedChain, factor: str, scheme: tuple[int, ...] | None) -> Program:
     """min |q - p|^2 with the factors zero; p is the parameter."""
     import casadi
@@ -260,7 +262,7 @@ def _nearest_program(loop: ClosedChain, factor: str, scheme: tuple[int, ...] | N
     return Program("nearest", q, p, casadi.sumsqr(q - p), zero)
 
 
-@cache
+@lru_cache(PROGRAMS)
 def _box_program(loop: ClosedChain, scheme: tuple[int, ...]) -> Program:
     """min t over (q, t) with D(q) = 0 and -t <= q - p <= t."""
     import casadi

@@ -21,6 +21,8 @@ BATCH = 1024
 SLICE = 1e-3
 """Seconds that one round of a timing takes, at least."""
 
+TICKS = [mantissa * 10**power for power in range(7) for mantissa in (1, 2, 5)]
+
 
 def section(context: Context) -> dict[str, Any]:
     """One entry a kernel, named part/kernel. Nanoseconds are medians: "scalar" of one call from Python, "batch" per pose of a batch."""
@@ -99,5 +101,5 @@ def figures(context: Context) -> dict[str, Figure]:
         "marker": {"color": "var(--right)", "size": 9, "line": {"color": "var(--card)", "width": 1}},
     }
     titles = (("xaxis", "arithmetic operations"), ("yaxis", "ns per pose in a batch"))
-    axes = {axis: {"title": {"text": words}, "type": "log", "dtick": "D2"} for axis, words in titles}
+    axes = {axis: {"title": {"text": words}, "type": "log", "tickvals": TICKS} for axis, words in titles}
     return {"kernels-operations": figure(bars, {**order, "margin": {"l": 200}}), "kernels-time": figure([cloud], axes)}

@@ -53,6 +53,7 @@ def render(context: Context, figures: Mapping[str, Figure]) -> str:
             "joint_names": context.loop.joint_names,
             "compiler": next(iter(context.data["kernels"].values()))["compiler"],
             "batch": BATCH,
+            "all_certified": all(row["certified"] for row in context.data["schemes"]["table"]),
         },
         drawings=drawings,
         maps={part: sorted(name for name in figures if name.startswith(f"{part}-")) for part in ("limb", "constraint", "nearest")},

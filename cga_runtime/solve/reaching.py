@@ -38,10 +38,10 @@ class Solution:
     success: bool
     status: str
     iterations: int
-    iterations_last: int
     residual: float
     seconds: float
     starts: int
+    iterations_last: int
 
 
 def reach(
@@ -109,7 +109,7 @@ def reach(
         status = f"reached (IPOPT: {best.attempt.status})"
     else:
         status = f"unreachable or not found in {best.starts} starts: closest result {miss:.2g} m away (IPOPT: {best.attempt.status})"
-    return Solution(q, success, status, best.iterations, best.attempt.iterations, miss, best.seconds, best.starts)
+    return Solution(q, success, status, best.iterations, miss, best.seconds, best.starts, best.attempt.iterations)
 
 
 def _subject(what: Any) -> tuple[tuple[Chain, ...], ClosedChain | None]:

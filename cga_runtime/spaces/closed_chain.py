@@ -50,6 +50,16 @@ class ClosedChain:
     def __repr__(self) -> str:
         return f"<ClosedChain {self.right.frame} + {self.left.frame}: {self.n} joints>"
 
+    def __eq__(self, other: object) -> bool:
+        """Closed chains are equal where their kernels and limits are: what was built for one serves the other."""
+        return isinstance(other, ClosedChain) and self.unit is other.unit and bool((self._limits() == other._limits()).all())
+
+    def __hash__(self) -> int:
+        return hash(self.unit)
+
+    def _limits(self) -> Array:
+        return np.stack([self.lower, self.upper])
+
     @property
     def actuators(self) -> int:
         """Joints that an actuation scheme actuates: the generic mobility n - 6."""

@@ -196,8 +196,8 @@ def test_margins_are_kept_and_change_the_solution(loop, rng):
         target = Point(hands(q)[0])
         free = reach(loop, target, CLOSED)
         assert free.success
-        # a little more than the free solution keeps
-        margin = 1.05 * np.abs(limb_factors(free.q)).min()
+        # more than the free solution keeps; where the arms are nearly symmetric it already keeps almost the most there is
+        margin = 1.005 * np.abs(limb_factors(free.q)).min()
         found = reach(loop, target, CLOSED, limb_margin=margin, starts=3)
         if found.success:
             assert (limb_factors(found.q) * np.sign(limb_factors(CLOSED))).min() >= margin - 2e-8
@@ -207,7 +207,7 @@ def test_margins_are_kept_and_change_the_solution(loop, rng):
         if found.success:
             assert determinant(found.q, scheme) / determinant(CLOSED, scheme) >= fraction - 2e-8
             solved["scheme"] += 1
-    assert min(solved.values()) >= 6
+    assert min(solved.values()) >= 8
 
 
 def test_a_conditioning_weight_improves_the_conditioning(loop, rng):
@@ -260,8 +260,6 @@ def test_the_hessian_of_the_lagrangian_is_exact(loop, rng):
     for _ in range(3):
         q, multipliers = CLOSED + rng.uniform(-0.15, 0.15, 10), rng.normal(size=10)
         cost, constraints, _ = lagrangian(q, multipliers)
-        kernel_sign = np.sign(float(loop.right.motor(q[:5]) @ loop.right.motor(CLOSED[:5])))
-        assert kernel_sign == 1.0  # near the closed position the kernels' motors lie on the same sheet as here
         assert float(solver.get_function("nlp_f")(q, given)) == pytest.approx(cost, abs=1e-12)
         np.testing.assert_allclose(np.array(solver.get_function("nlp_g")(q, given)).ravel(), constraints, atol=1e-12)
         upper = np.array(solver.get_function("nlp_hess_l")(q, given, 1.0, multipliers))

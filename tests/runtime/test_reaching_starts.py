@@ -6,13 +6,17 @@ import numpy as np
 import pytest
 
 import cga_runtime as cga
-from cga_runtime.elements import Circle, Line, Motor, Plane, Point, PointPair, Sphere
+from cga_runtime.elements import Line, Motor, Plane, Point, PointPair, Sphere
 from cga_runtime.solve.reaching import reach
 from cga_runtime.solve.reaching_grasp import hold
 from cga_runtime.solve.reaching_problem import Form, bounds, program
 from cga_runtime.solve.reaching_tasks import run_tasks
 
 CLOSED = np.array([0.6, -0.35, 0.9, 0.9, 0.2, 0.6, 0.35, -0.9, -0.9, -0.2])
+
+
+def within(q, limited):
+    return bool(((limited.lower <= q) & (q <= limited.upper)).all())
 
 
 def test_a_program_is_built_once_for_all_targets(nao, rng):
@@ -41,7 +45,7 @@ def test_more_starts_find_what_one_does_not_and_repeat_exactly(arm, rng):
 def test_an_unreachable_point_is_a_status_not_an_error(arm, loop, rng):
     goal = np.array([0.25, -0.4, 0.3])
     found = reach(arm, Point(goal), starts=4)
-    assert not found.success and found.starts == 4 and within(found.q, arm.lower, arm.upper)
+    assert not found.success and found.starts == 4 and within(found.q, arm)
     assert found.status.startswith("unreachable or not found in 4 starts: closest result 0.2")
     assert found.residual == pytest.approx(np.linalg.norm(arm.point(found.q) - goal), abs=1e-12)
     sampled = np.linalg.norm(arm.point(arm.random(rng, 100_000)) - goal, axis=-1).min()
@@ -50,14 +54,21 @@ def test_an_unreachable_point_is_a_status_not_an_error(arm, loop, rng):
     assert not held.success and "not found in 2 starts" in held.status
 
 
+def test_success_is_measured_not_believed(arm):
+    target = Point(arm.point(arm.lower + 0.4 * (arm.upper - arm.lower)))
+    found = reach(arm, target, tolerance=1e-30, starts=2)
+    assert not found.success and found.starts == 2 and found.residual < 1e-8
+    assert re.fullmatch(r"unreachable or not found in 2 starts: closest result \S+ m away \(IPOPT: Solve_Succeeded\)", found.status)
+
+
 def test_a_start_outside_the_limits_is_moved_inside(arm, loop):
     found = reach(arm, Point(arm.point(0.5 * (arm.lower + arm.upper))), arm.upper + 1.0)
-    assert found.success and within(found.q, arm.lower, arm.upper)
+    assert found.success and within(found.q, arm)
     # the object is held as q0 holds it, although q0 itself is not allowed
     outside = CLOSED.copy()
     outside[3] = 0.02  # below the limit 0.0349
     found = reach(loop, Sphere.from_center_radius(loop.right.point(outside[:5]), 0.05), outside)
-    assert found.success and within(found.q, loop.lower, loop.upper)
+    assert found.success and within(found.q, loop)
     np.testing.assert_allclose(loop.grasp(found.q), loop.grasp(outside), atol=1e-8)
 
 
@@ -67,7 +78,7 @@ def test_joints_that_slide_or_have_no_limits(skew, rng):
     for _ in range(5):
         goal = chain.point(chain.random(rng))
         found = reach(chain, Point(goal))
-        assert found.success and within(found.q, chain.lower, chain.upper) and np.isfinite(found.q).all()
+        assert found.success and within(found.q, chain) and np.isfinite(found.q).all()
         np.testing.assert_allclose(chain.point(found.q), goal, atol=1e-8)
 
 
@@ -111,7 +122,7 @@ REFUSED = [
     ("loop", HERE, {"limb_margin": np.nan}, cga.NotFiniteError, "limb_margin holds NaN"),
     ("loop", HERE, {"q0": CLOSED * (1, 1, 1, 0, 1, 1, 1, 1, 1, 1), "limb_margin": 0.3}, cga.DegenerateError, "q0 is a limb singularity"),
     ("loop", HERE, {"scheme_margin": 0.5}, cga.SchemeError, "scheme_margin: 0.5 given; actuated joints and a fraction needed"),
-    ("loop", HERE, {"scheme_margin": ((1, 3, 7), 0.5)}, cga.SchemeError, "scheme (1, 3, 7): 4 distinct joint numbers from 1 to 10 are needed"),
+    ("loop", HERE, {"scheme_margin": ((1, 3, 7), 0.5)}, cga.SchemeError, "scheme (1, 3, 7): 4 distinct joint numbers from 1 to 10"),
     ("loop", HERE, {"scheme_margin": ((1, 3, 7, 8), np.inf)}, cga.NotFiniteError, "scheme_margin holds NaN or infinity"),
     ("loop", HERE, {"q0": CLOSED, "scheme_margin": ((1, 2, 3, 7), 0.5)}, cga.DegenerateError, "D_a of the scheme (1, 2, 3, 7) is"),
     ("loop", HERE, {"grasp": np.eye(8)[0], "scheme_margin": ((1, 3, 7, 8), 0.5)}, cga.GraspError,
@@ -162,7 +173,7 @@ def test_tasks_are_solved_as_often_as_the_reference(tasks, name):
     share = first / 100
     assert result["solved_first_start"] >= 50 * share - 3 * (50 * share * (1 - share)) ** 0.5 - 3
     assert result["iterations_median"] <= 1.5 * iterations + 6
-    assert result["iterations_max"] >= result["iterations_median"] and 0.0 < result["seconds_median"] < 10.0
+    assert result["iterations_max"] >= result["iterations_median"] and result["seconds_median"] > 0.0
 
 
 def test_tasks_are_complete_and_announced(tasks):

@@ -40,7 +40,7 @@ def test_walk(name):
 
 
 def test_statistics_of_the_walk():
-    """The reference accepted 85 % and 89 % of 400 steps (symmetric, random), with 2.3 Newton steps to 1e-11; here to 1e-12, over 4 walks."""
+    """The reference accepted 85 % (symmetric) and 89 % (random), with 2.3 Newton steps to 1e-11; here four walks, closed to 1e-12."""
     for start in STARTS.values():
         walks = [walk(LOOP, start, 400, np.random.default_rng(seed)) for seed in range(4)]
         accepted = [1 - found.rejected / found.tried for found in walks]
