@@ -68,15 +68,3 @@ def unit(vector: Array, what: str) -> Array:
         raise DegenerateError(f"{what}: its direction is zero")
     scaled = vector / largest
     return np.asarray(scaled / norm(scaled)[..., None])
-
-
-def quaternion_product(left: Array, right: Array) -> Array:
-    """Product of even elements with components 1 e12 e13 e23, (..., 4): 16 products."""
-    a, b, c, d = parts(left)
-    e, f, g, h = parts(right)
-    return stack(
-        a * e - b * f - c * g - d * h,
-        a * f + b * e - c * h + d * g,
-        a * g + c * e + b * h - d * f,
-        a * h + d * e - b * g + c * f,
-    )

@@ -1,8 +1,4 @@
-"""Motors: rigid motions as versors M = T(t) R of CGA (paper A, eqs. 18, 62-67; paper B, eqs. 5-9).
-
-A motor is the sum of a rotor r (components 1 e12 e13 e23) and an ideal part v ei + p e123i. With v + p e123 = e123 d the even element d has
-components (p, -v3, v2, -v1), and since ei commutes with even Euclidean elements M1 M2 = r1 r2 + e123 (r1 d2 + d1 r2) ei: a dual quaternion.
-"""
+"""Motors: rigid motions as versors M = T(t) R of CGA (paper A, eqs. 18, 62-67; paper B, eqs. 5-9). Products are the generated ones."""
 
 from __future__ import annotations
 
@@ -12,12 +8,14 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cga_runtime.coordinates import Array, dot, norm, parts, quaternion_product, read, stack, times, unit
+from cga_runtime.coordinates import Array, norm, parts, read, stack, times, unit
 from cga_runtime.errors import DegenerateError
+from cga_runtime.kernels import products
 
 RIGID = 1e-9
 """Largest deviation of a motor from M ~M = 1, and of a pose from a rotation and a translation."""
-REVERSE = np.array([1.0, -1.0, -1.0, -1.0])
+REVERSE = np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0])
+"""Signs of ~M in the components of M."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,9 +31,11 @@ class Motor:
     def __post_init__(self) -> None:
         coefficients = read(self.coefficients, "motor", 8)
         object.__setattr__(self, "coefficients", coefficients)
-        rotor, ideal = self._rotor, self._ideal
-        scalar = np.abs(dot(rotor, rotor) - 1.0).max(initial=0.0)
-        pseudoscalar = (np.abs(dot(rotor, ideal)) / (1.0 + norm(ideal))).max(initial=0.0)
+        a, b12, b13, b23, e1i, e2i, e3i, e123i = parts(coefficients)
+        # M ~M = scalar + 2 (a e123i - b12 e3i + b13 e2i - b23 e1i) e123i
+        scalar = np.abs(a * a + b12 * b12 + b13 * b13 + b23 * b23 - 1.0).max(initial=0.0)
+        mixed = np.abs(a * e123i - b12 * e3i + b13 * e2i - b23 * e1i)
+        pseudoscalar = (mixed / (1.0 + norm(coefficients[..., 4:]))).max(initial=0.0)
         if max(scalar, pseudoscalar) > RIGID:
             raise DegenerateError(
                 f"motor: M ~M must be 1; its scalar part is off by {scalar:.1e}, its e123i part by {2 * pseudoscalar:.1e} "
@@ -58,29 +58,18 @@ class Motor:
         if (matrix[..., 3, :] != (0.0, 0.0, 0.0, 1.0)).any():
             raise DegenerateError("pose: its last row must be 0 0 0 1")
         rotor = _rotor(rotation)
-        # T R = R + (T - 1) R with T - 1 = -t ei / 2
-        x, y, z = parts(-0.5 * translation)
-        p, b12, b13, b23 = parts(quaternion_product(stack(0.0, -z, y, -x), rotor))
-        return cls(np.concatenate([rotor, stack(-b23, b13, -b12, p)], axis=-1))
-
-    @property
-    def _rotor(self) -> Array:
-        return self.coefficients[..., :4]
-
-    @property
-    def _ideal(self) -> Array:
-        """The even element d of the ideal part e123 d ei."""
-        x, y, z, p = parts(self.coefficients[..., 4:])
-        return stack(p, -z, y, -x)
+        translator = np.moveaxis(np.concatenate([np.ones_like(translation[..., :1]), -0.5 * translation], axis=-1), -1, 0)
+        return cls(stack(*products().translator_rotor(translator, parts(rotor))))
 
     def pose(self) -> Array:
         """Homogeneous matrix, (..., 4, 4)."""
-        w, z, y, x = parts(self._rotor * np.array([1.0, -1.0, 1.0, -1.0]))  # the quaternion w + x i + y j + z k
-        _, b12, b13, b23 = parts(quaternion_product(self._ideal, self._rotor * REVERSE))
+        a, b12, b13, b23, *_ = parts(self.coefficients)
+        w, x, y, z = a, -b23, b13, -b12  # the quaternion w + x i + y j + z k
+        position = products().motor_origin_position(parts(self.coefficients))
         rows = [
-            stack(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * b23),
-            stack(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), -2 * b13),
-            stack(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), 2 * b12),
+            stack(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), position[0]),
+            stack(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), position[1]),
+            stack(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), position[2]),
             stack(0 * w, 0 * w, 0 * w, 0 * w + 1),
         ]
         return np.stack(rows, axis=-2)
@@ -89,14 +78,11 @@ class Motor:
         """Geometric product: the motion `other`, then this one."""
         if not isinstance(other, Motor):
             return NotImplemented
-        dual = quaternion_product(self._rotor, other._ideal) + quaternion_product(self._ideal, other._rotor)
-        p, b12, b13, b23 = parts(dual)
-        rotor = quaternion_product(self._rotor, other._rotor)
-        return Motor(np.concatenate([rotor, stack(-b23, b13, -b12, p)], axis=-1))
+        return Motor(stack(*products().motor_motor(parts(self.coefficients), parts(other.coefficients))))
 
     def __invert__(self) -> Motor:
         """Reverse: the inverse motion."""
-        return Motor(self.coefficients * np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0]))
+        return Motor(self.coefficients * REVERSE)
 
 
 def _rotor(rotation: Array) -> Array:

@@ -92,7 +92,7 @@ def _figure(robot: Robot, loop: ClosedChain, q2: Array, q4: Array, z: Array, top
         on_map(star.q2_star, q4[-1], lines[0][2], yanchor="top", xanchor="left", xshift=3),
         on_map(q2[-1], 0.0, "q4 = 0", xanchor="right"),
     ]
-    outside = "inside the limits" if star.inside else f"outside the limits by {star.margin:.4f} rad"
+    outside = "inside the limits" if star.inside else f"{star.margin:.4f} rad outside"
     return figure(
-        [trace, box, *loci], {**layout, "title": {"text": f"{label(robot.name)}: {outside}"}, "annotations": marks, "showlegend": False}
+        [trace, box, *loci], {**layout, "title": {"text": f"{label(robot.name)}: q2* {outside}"}, "annotations": marks, "showlegend": False}
     )

@@ -14,8 +14,8 @@
   function coloured(value, style) {
     if (typeof value === "string") return value.startsWith("var(--") ? style.getPropertyValue(value.slice(4, -1)).trim() : value;
     if (Array.isArray(value)) return value.map((item) => coloured(item, style));
-    if (value && typeof value === "object") return Object.fromEntries(Object.entries(value).map(([key, item]) => [key, coloured(item, style)]));
-    return value;
+    if (value === null || typeof value !== "object") return value;
+    return Object.fromEntries(Object.entries(value).map(([key, item]) => [key, coloured(item, style)]));
   }
 
   function draw(chart, width, height) {
@@ -66,8 +66,9 @@
       chart.hidden = name !== "3d";
       still.toggleAttribute("hidden", name === "3d");
       for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.view === name));
-      if (name === "3d" && !chart.dataset.drawn) Promise.resolve(draw(chart)).then(() => { chart.dataset.drawn = "yes"; }).catch(() => show("still"));
-      else if (name === "3d") Plotly.Plots.resize(chart);
+      if (name !== "3d") return;
+      if (chart.dataset.drawn) Plotly.Plots.resize(chart);
+      else draw(chart).then(() => { chart.dataset.drawn = "yes"; }, () => show("still"));
     };
     if (!solid) { view.parentElement.querySelector(".no-webgl").hidden = false; continue; }
     view.hidden = false;

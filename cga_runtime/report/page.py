@@ -60,6 +60,7 @@ def render(context: Context, figures: Mapping[str, Figure]) -> str:
         classes=CLASS_STYLE,
         columns=COLUMNS,
         ledger=ledger(context.data),
+        titles={name: figure["layout"].get("title", {}).get("text", name) for name, figure in figures.items()},
         figures=for_script({**figures, **scenes}),
         theme=for_script(THEME),
         css=Markup((HERE / "page.css").read_text(encoding="utf-8")),

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.errors import GraspError, SchemeError, WrongSizeError
 from cga_runtime.kernels import Kernel, finite, generated_folder, library, products
+from cga_runtime.motors import REVERSE
 from cga_runtime.robot import Chain
 
 if TYPE_CHECKING:
@@ -22,9 +23,6 @@ if TYPE_CHECKING:
     from cga_runtime.analysis.singularities import Nearest, SingularityFreeBox
 
 Array = NDArray[np.float64]
-
-_REVERSE = np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0])
-"""Signs of ~M in a motor's components 1 e12 e13 e23 e1i e2i e3i e123i."""
 
 LENGTH = 0.1
 """Characteristic length (m) of determinants: moment rows are divided by it."""
@@ -105,7 +103,7 @@ class ClosedChain:
         """The grasp motor X = ~M_R M_L, (..., 8), that closes the loop at q (the left hand's pose in the right hand's frame)."""
         q = self.check(q)
         right, left = self.right.motor(q[..., : self.right.n]), self.left.motor(q[..., self.right.n :])
-        product = products().motor_motor(np.moveaxis(right * _REVERSE, -1, 0), np.moveaxis(left, -1, 0))
+        product = products().motor_motor(np.moveaxis(right * REVERSE, -1, 0), np.moveaxis(left, -1, 0))
         return np.stack(product, axis=-1)
 
     def closure_error(self, q: ArrayLike, grasp: ArrayLike) -> Array:

@@ -5,6 +5,7 @@ import os
 import shlex
 import sys
 import warnings
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -37,6 +38,14 @@ def compiler(tmp_path, monkeypatch):
     return choose
 
 
+@pytest.fixture
+def new_search() -> Iterator[Callable[[], None]]:
+    """Forgets which compilers were found, as a new process would; and once more when the test is over."""
+    find_compiler.cache_clear()
+    yield find_compiler.cache_clear
+    find_compiler.cache_clear()
+
+
 def answer(source: str = SOURCE) -> int:
     return compile_library("test", source).answer()
 
@@ -66,18 +75,18 @@ def test_compiler_arguments_are_passed_on_and_part_of_the_name(cache, monkeypatc
     assert len(libraries(cache)) == 2
 
 
-def test_another_version_of_the_compiler_compiles_anew(cache, compiler, tmp_path):
+def test_another_version_of_the_compiler_compiles_anew(cache, compiler, new_search):
     script = compiler('REAL "$@"')
     assert answer() == 42
     Path(script).write_text(Path(script).read_text().replace("fake 1", "fake 2"))
-    find_compiler.cache_clear()  # as a new process would
+    new_search()
     assert answer() == 42 and len(libraries(cache)) == 2
 
 
 # ---- compilers that do not work
 
 
-@pytest.mark.parametrize("choice", ["/nowhere/cc", "no-such-compiler --fast", "false", 'gcc "', " ", "/", "\0"])
+@pytest.mark.parametrize("choice", ["/nowhere/cc", "no-such-compiler --fast", "false", 'gcc "', " ", "/"])
 def test_a_choice_that_does_not_answer(cache, choice):
     with pytest.raises(CompilerError) as refusal:
         find_compiler(choice)
@@ -95,14 +104,14 @@ def test_cc_is_the_choice(cache, monkeypatch):
 FAILURES = [
     ("echo 'kernels.c:1: error: I give up' >&2; exit 3", r"failed \(3\); {advice}:\nkernels.c:1: error: I give up$"),
     ("echo 'said on the wrong channel'; exit 1", r"failed \(1\); {advice}:\nsaid on the wrong channel$"),
-    ("seq 1 5000 >&2; echo the end >&2; exit 1", r"failed \(1\); {advice}:\n[0-9\n]{{780,790}}the end$"),
+    ("seq 1 5000 >&2; echo the end >&2; exit 1", r"failed \(1\); {advice}:\n[0-9\n]{{780,800}}the end$"),
     ("printf 'erreur: caract\\351re\\n' >&2; exit 1", "failed .*erreur: caract\ufffdre$"),
     ("exit 0", r"wrote no library; {advice}:\n$"),
     ("kill -9 $$", r"failed \(-9\); {advice}:\n$"),
 ]
 
 
-@pytest.mark.parametrize(("lines", "message"), FAILURES)
+@pytest.mark.parametrize(("lines", "message"), FAILURES, ids=["error", "error on stdout", "long", "not UTF-8", "no output", "killed"])
 def test_a_compiler_that_fails(cache, compiler, lines, message):
     script = compiler(lines)
     advice = "set CC to another compiler, or CGA_NO_COMPILER=1 to run the Python text"
@@ -208,7 +217,7 @@ def test_without_a_compiler_there_is_one_warning(cache, monkeypatch):
     assert not cache.exists()
 
 
-def test_compilers_are_searched_in_order(tmp_path, monkeypatch):
+def test_compilers_are_searched_in_order(tmp_path, monkeypatch, new_search):
     """clang, gcc, cc, then ziglang from pip; those that do not answer are passed over."""
     order = ["clang", "gcc", "cc"]
     for name in order:
@@ -222,16 +231,15 @@ def test_compilers_are_searched_in_order(tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     monkeypatch.delitem(sys.modules, "ziglang", raising=False)
     for name in order:
-        find_compiler.cache_clear()
+        new_search()
         assert find_compiler(None).version == f"{name} 1.0"
         (tmp_path / name).write_text("#!/bin/sh\nexit 1\n")
-    find_compiler.cache_clear()
+    new_search()
     found = find_compiler(None)
     assert found.command == (sys.executable, "-m", "ziglang", "cc") and found.version == "zig cc --version"
     monkeypatch.setitem(sys.modules, "ziglang", None)
-    find_compiler.cache_clear()
+    new_search()
     assert find_compiler(None) is None
-    find_compiler.cache_clear()
 
 
 def test_a_full_disk_is_a_sentence(cache, monkeypatch):
