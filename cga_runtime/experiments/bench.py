@@ -109,7 +109,8 @@ def run(rounds: int = ROUNDS) -> list[dict[str, Any]]:
 def write(rows: Sequence[dict[str, Any]], folder: Path) -> None:
     """bench.json and table.md in `folder`."""
     columns = ("group", "robot", "operation", "ours_ns", "peer", "peer_ns", "ratio", "value_error")
-    lines = [f"Python {platform.python_version()}, {platform.machine()}, {platform.system()}; medians, ns per configuration, one process.", ""]
+    machine = f"Python {platform.python_version()}, {platform.machine()}, {platform.system()}"
+    lines = [f"{machine}; medians, ns per configuration, one process.", ""]
     lines += ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
     lines += ["| " + " | ".join(f"{row[c]:.4g}" if isinstance(row[c], float) else str(row[c]) for c in columns) + " |" for row in rows]
     try:

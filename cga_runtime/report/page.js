@@ -68,7 +68,7 @@
       for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.view === name));
       if (name !== "3d") return;
       if (chart.dataset.drawn) Plotly.Plots.resize(chart);
-      else draw(chart).then(() => { chart.dataset.drawn = "yes"; }, () => show("still"));
+      else Promise.resolve().then(() => draw(chart)).then(() => { chart.dataset.drawn = "yes"; }, () => show("still"));
     };
     if (!solid) { view.parentElement.querySelector(".no-webgl").hidden = false; continue; }
     view.hidden = false;
