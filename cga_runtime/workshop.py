@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import os
+import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
@@ -147,15 +149,28 @@ def _unit(key: dict[str, Any], subject: Callable[[], Any]) -> Unit:
             if not _complete(folder):
                 made = subject()
                 texts, record = loop_unit(made) if "right" in key else chain_unit(made)
-                if folder.exists():  # damaged: the listing below replaces every file
-                    (folder / "manifest.json").write_text("{}", encoding="utf-8")
-                write_folder(folder, texts, manifest_text(__version__, texts, [record], {}))
+                with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".build-") as build:
+                    write_folder(Path(build) / "fresh", texts, manifest_text(__version__, texts, [record], {}))
+                    _install(Path(build) / "fresh", folder)
     except ModelError as error:
         raise RobotFileError(str(error)) from error
     except GeneratedFolderError as error:
         raise CacheError(str(error)) from error
+    except OSError as error:
+        raise CacheError(f"cannot write {error.filename or folder}: {error.strerror}") from error
     opened = library(folder)
     return opened.unit(next(iter(opened.manifest["units"])))
+
+
+def _install(fresh: Path, folder: Path) -> None:
+    """Renames a finished folder into place; what lies there is moved aside if it is damaged, and kept if another process was quicker."""
+    if folder.exists() and not _complete(folder):
+        os.rename(folder, fresh.with_name("damaged"))
+    try:
+        os.rename(fresh, folder)
+    except OSError:
+        if not _complete(folder):
+            raise
 
 
 @cache

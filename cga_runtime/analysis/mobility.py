@@ -1,7 +1,7 @@
 """Mobility of a closed chain by screw theory: twist systems, constraint wrenches, motion type (paper C, section 4).
 
 Twists are (w, v), wrenches (f, m), about the root frame's origin; reciprocal when f.v + m.w = 0 (paper C, eq. 10). Ranks are of matrices
-whose translational rows (v, m) are divided by LENGTH, with singular values below RANK_TOLERANCE times the largest counted as zero.
+whose translational rows (v, m) are divided by LENGTH; singular values below RANK_TOLERANCE times the largest, or times 1, count as zero.
 """
 
 from __future__ import annotations

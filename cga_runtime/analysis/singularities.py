@@ -149,7 +149,7 @@ def nearest_singularity(
 
     within_limits: search inside the joint limits, else in the box |q' - q| <= pi/2 + 0.01 per joint. The first start is q, others lie
     within 0.5 rad per joint around it. Raises UnknownNameError for another kind, SchemeError if "actuation" comes without a scheme or
-    another with one.
+    another with one, DegenerateError for arms without wrist centres, or (constraint) whose first axes are not one line.
     """
     if kind not in KINDS:
         raise UnknownNameError("kind of singularity", kind, KINDS)
@@ -236,7 +236,12 @@ def _factors(loop: ClosedChain, kind: str) -> tuple[str, ...]:
     if kind == "actuation":
         return ("determinant",)
     require_wrist_centres(loop)
-    return ("f right, f left",) if kind == "constraint" else tuple(FACTORS)
+    if kind == "limb":
+        return tuple(FACTORS)
+    first = loop.twists(np.zeros(loop.n))[:, [0, loop.right.n]]  # the first axes do not move
+    if np.linalg.matrix_rank(first, tol=1e-9) > 1:
+        raise DegenerateError(f"{loop!r}: the constraint singularity (paper C, eq. 19) is that of arms whose first axes are one line")
+    return ("f right, f left",)
 
 
 def _values(loop: ClosedChain, factor: str, scheme: tuple[int, ...] | None, q: Array) -> Array:

@@ -17,11 +17,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Arm:
-    """One arm: centres U and S, the elbow (foot of U on the third axis), the hand, unit axes (5, 3) and a point on each (5, 3)."""
+    """One arm: centres U and S, the elbow (foot of U on axis 3), the wrist (foot of the hand on axis 5), the hand; unit axes (5, 3) and a
+    point on each (5, 3).
+    """
 
     u: Array
     elbow: Array
     s: Array
+    wrist: Array
     hand: Array
     axes: Array
     anchors: Array
@@ -47,8 +50,8 @@ def arms_at(loop: ClosedChain, q: Array) -> Arms:
 def _arm(twists: Array, s: Array, hand: Array) -> Arm:
     w, v = twists[:3].T, twists[3:].T
     u = meeting_point((w[0], v[0]), (w[1], v[1]))
-    elbow = s + w[2] * (w[2] @ (u - s))
-    return Arm(u, elbow, s, hand, w, np.stack([u, u, elbow, s, hand]))
+    elbow, wrist = (s + w[j] * (w[j] @ (point - s)) for j, point in ((2, u), (4, hand)))
+    return Arm(u, elbow, s, wrist, hand, w, np.stack([u, u, elbow, s, wrist]))
 
 
 def meeting_point(first: tuple[Array, Array], second: tuple[Array, Array]) -> Array:

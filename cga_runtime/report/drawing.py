@@ -68,7 +68,7 @@ def draw(arms: Arms, pose: dict[str, Any], joint_names: Sequence[str]) -> Drawin
             made.lines.append(Line("rotation", ends, f"the object may turn about the {twist['name']}", tag="R"))
     names = iter(joint_names)
     for side, arm, number in (("right", right, 1), ("left", left, 2)):
-        made.lines.append(Line("link", np.stack([arm.u, arm.elbow, arm.s, arm.hand]), f"{side} arm", side))
+        made.lines.append(Line("link", np.stack([arm.u, arm.elbow, arm.s, arm.wrist, arm.hand]), f"{side} arm", side))
         for w, anchor in zip(arm.axes, arm.anchors, strict=True):
             made.lines.append(Line("axis", anchor + np.outer([-AXIS, AXIS], w), f"axis of {next(names)}", side))
         along = (arm.s - arm.u) / np.linalg.norm(arm.s - arm.u)

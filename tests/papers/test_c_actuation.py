@@ -226,6 +226,20 @@ def test_closed_form_of_the_best_scheme():
         assert abs(pose.raw((1, 3, 7, 8)) + expected) < 1e-16
 
 
+def test_why_twenty_schemes_fail_where_q1_is_q6():
+    """On q1 = q6 both shoulder and both S centres lie in one plane with the shoulder line. For each of the twenty, a line through two of these
+    points meets all six passive axes (1237: the line AB); elsewhere none does."""
+    twenty = [tuple(scheme) for scheme in ORACLE["singular_on_q1_eq_q6"]]
+    for pose in poses(82, 10):
+        planar = Pose(np.where(np.arange(10) == 5, pose.q[0], pose.q))
+        for at, expected in ((planar, True), (pose, False)):
+            points = (at.a, at.b, *SHOULDERS)
+            lines = [force(x, y - x) for x, y in combinations(points, 2)]
+            for scheme in twenty:
+                met = any(max(abs(power(line, at.s[j])) for j in at.passive(scheme)) < 1e-15 for line in lines)
+                assert met == expected
+
+
 def test_errata_e5_and_e6_counts():
     """210 schemes make 110 pairs of mirror images; only 10 are symmetric. 71 are singular everywhere, not just example 1."""
     images = {scheme: tuple(sorted((j + 4) % 10 + 1 for j in scheme)) for scheme in ALL}

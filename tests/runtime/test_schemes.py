@@ -80,7 +80,7 @@ def test_rows_of_the_reference_table():
 
 def test_statistics_of_the_reference_table():
     """Medians to 10 %. A 5 % quantile of 3000 draws is itself uncertain by 8 %: compared by how many draws lie below, to four sigma."""
-    draws = 6000
+    draws = 4000
     mu = conditioning(LOOP, LOOP.random(np.random.default_rng(20), draws), ALL)
     column = {scheme: mu[:, k] for k, scheme in enumerate(ALL)}
     never = {tuple(row["actuated"]) for row in table() if row["class"] == "never"}

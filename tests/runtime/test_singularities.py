@@ -237,6 +237,20 @@ def test_bad_questions():
             call(np.zeros((3, 10)))
 
 
+def test_shoulders_that_are_not_collinear():
+    """A raised arm: f = 0 in both arms is no constraint singularity there (the two forces are parallel, W^c keeps rank 2), so it is refused."""
+    up = np.eye(4)
+    up[2, 3] = 0.013
+    loop = ClosedChain(ROBOTS["nao"].chain("RHand"), ROBOTS["nao"].chain("LHand", placement=up))
+    q = POSE.copy()
+    q[1], q[6] = STAR["nao"], -STAR["nao"]
+    assert np.linalg.matrix_rank(loop.kernel("constraint_wrenches")(q), tol=1e-9) == 2
+    assert loop.mobility(q).limb_ranks == (4, 4) and loop.mobility(q).object_dof == 2
+    with pytest.raises(DegenerateError, match="that of arms whose first axes are one line"):
+        loop.nearest_singularity(q, kind="constraint")
+    assert loop.nearest_singularity(q, kind="limb").distance == 0
+
+
 def test_arms_without_wrist_centres():
     """Three and four joints: no limb factors, said in words; actuation singularities are found all the same."""
     loop = ClosedChain(ROBOTS["nao"].chain("RElbow"), ROBOTS["nao"].chain("LForeArm"))
