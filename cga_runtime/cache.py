@@ -91,12 +91,13 @@ def locked(path: Path) -> Iterator[None]:
         yield
 
 
-def write_atomic(path: Path, content: bytes) -> None:
-    """Writes a file under a temporary name and renames it into place."""
+def write_atomic(path: Path, content: bytes, mode: int = 0o600) -> None:
+    """Writes a file under a temporary name and renames it into place. Private unless `mode` says otherwise."""
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(content)
+        os.chmod(temporary, mode)
         os.replace(temporary, path)
     except BaseException:
         Path(temporary).unlink(missing_ok=True)

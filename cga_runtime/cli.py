@@ -65,6 +65,14 @@ def numbers(text: str, what: str) -> list[float]:
         raise WrongSizeError(f"{what}: {text!r} given, numbers separated by commas needed") from None
 
 
+def joint_numbers(text: str) -> list[int]:
+    """Comma-separated joint numbers; WrongSizeError for anything that is not whole."""
+    values = numbers(text, "--scheme")
+    if not all(value.is_integer() for value in values):  # which NaN and infinity are not
+        raise WrongSizeError(f"--scheme: {text!r} given, joint numbers separated by commas needed")
+    return [int(value) for value in values]
+
+
 def two_arms(robot: Robot, frames: str) -> ClosedChain:
     """The closed chain of two end frames, given as "right,left"."""
     names = [name.strip() for name in frames.split(",")]
@@ -126,12 +134,13 @@ def generate(
     result = {"folder": str(folder), "units": {path: {k: v["operations"] for k, v in u["kernels"].items()} for path, u in units.items()}}
 
     def table() -> Table:
-        names = (Column(title, no_wrap=True) for title in ("unit", "kernel"))
-        view = Table(*names, "operations", "before lowering", "by AD", title="arithmetic operations; by AD: of CasADi's derivative instead")
+        heads = (Column("unit, kernel", no_wrap=True), "operations", "before lowering", "by AD")
+        view = Table(*heads, title="arithmetic operations; by AD: of CasADi's derivative instead")
         for path, unit in units.items():
+            view.add_row(path)
             for name, k in unit["kernels"].items():
                 ad = k.get("operations_by_differentiation", "")
-                view.add_row(path, name, str(k["operations"]), str(k["casadi_instructions"]), str(ad))
+                view.add_row(f"  {name}", str(k["operations"]), str(k["casadi_instructions"]), str(ad))
         return view
 
     show(result, json_, table)
@@ -179,7 +188,7 @@ def singularities(
 ) -> None:
     """The nearest singularity of a kind; exit status 1 if none was found."""
     loop = two_arms(load_robot(robot), frames)
-    actuated = [int(x) for x in numbers(scheme, "--scheme")] if scheme else None
+    actuated = joint_numbers(scheme) if scheme else None
     found = loop.nearest_singularity(configuration(loop, q), kind, actuated, within_limits=within_limits)
     show(found.to_json(), json_)
     raise typer.Exit(0 if found.success else 1)
@@ -209,7 +218,7 @@ def schemes(
     show({**summary(rows), "table": rows}, json_, table)
 
 
-@app.command()
+@app.command(context_settings={"ignore_unknown_options": True})  # or a point that begins with a minus would be taken for one
 def reach(
     point: Annotated[str, typer.Argument(help="Target point x,y,z (m) in the robot's base frame.")],
     robot: Annotated[str, typer.Option(help="A bundled robot's name or a URDF file.")] = "nao",

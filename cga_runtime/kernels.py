@@ -204,19 +204,23 @@ class Kernel:
     def _checked(self, values: Sequence[ArrayLike]) -> tuple[list[Array], tuple[int, ...]]:
         if len(values) != len(self.inputs):
             raise WrongSizeError(f"{self.name} takes {', '.join(self.inputs)}; {len(values)} arrays given")
-        arrays = [numeric(value, name) for name, value in zip(self.inputs, values, strict=True)]
-        for (name, shape), array in zip(self.inputs.items(), arrays, strict=True):
-            if array.shape[array.ndim - len(shape) :] != shape:
+        arrays, batches = [], []
+        for value, (name, shape) in zip(values, self.inputs.items(), strict=True):
+            array = numeric(value, name)
+            split = array.ndim - len(shape)
+            if array.shape[split:] != shape or split < 0:
                 wanted = ", ".join(str(k) for k in shape)
                 raise WrongSizeError(f"{name} of {self.unit.path}: shape {array.shape} given, (..., {wanted}) needed")
-        batches = [a.shape[: a.ndim - len(shape)] for a, shape in zip(arrays, self.inputs.values(), strict=True)]
-        try:
-            batch = np.broadcast_shapes(*batches)
-        except ValueError:
-            raise WrongSizeError(f"{self.name}: batch dimensions {batches} do not broadcast") from None
-        return [
-            np.ascontiguousarray(np.broadcast_to(a, (*batch, *shape))) for a, shape in zip(arrays, self.inputs.values(), strict=True)
-        ], batch
+            arrays.append(array)
+            batches.append(array.shape[:split])
+        batch = batches[0]
+        if batches.count(batch) != len(batches):
+            try:
+                batch = np.broadcast_shapes(*batches)
+            except ValueError:
+                raise WrongSizeError(f"{self.name}: batch dimensions {batches} do not broadcast") from None
+            arrays = [np.broadcast_to(a, (*batch, *shape)) for a, shape in zip(arrays, self.inputs.values(), strict=True)]
+        return [np.ascontiguousarray(a) for a in arrays], batch
 
     @cached_property
     def _single(self) -> tuple[int, ...] | None:

@@ -115,7 +115,7 @@ def write(rows: Sequence[dict[str, Any]], folder: Path) -> None:
     lines += ["| " + " | ".join(f"{row[c]:.4g}" if isinstance(row[c], float) else str(row[c]) for c in columns) + " |" for row in rows]
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        write_atomic(folder / "bench.json", (json.dumps(list(rows), indent=1) + "\n").encode())
-        write_atomic(folder / "table.md", ("\n".join(lines) + "\n").encode())
+        write_atomic(folder / "bench.json", (json.dumps(list(rows), indent=1) + "\n").encode(), mode=0o644)
+        write_atomic(folder / "table.md", ("\n".join(lines) + "\n").encode(), mode=0o644)
     except OSError as error:
         raise CgaError(f"cannot write {error.filename or folder}: {error.strerror}") from error

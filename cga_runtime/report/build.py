@@ -73,8 +73,7 @@ def build_report(
     page, data = render(context, figures), strict_json.text(context.data)
     try:
         for name, content in (("report.json", data), ("index.html", page)):
-            write_atomic(folder / name, content.encode())
-            (folder / name).chmod(0o644)  # temporary files are private; a report is for showing around
+            write_atomic(folder / name, content.encode(), mode=0o644)  # a report is for showing around
     except OSError as error:
         raise ReportFolderError(f"cannot write the report into {folder} ({error.strerror}); name another folder with --out") from error
     if progress is not None:

@@ -62,9 +62,8 @@ def draw(arms: Arms, pose: dict[str, Any], joint_names: Sequence[str]) -> Drawin
             ends = np.stack([centre, centre + ARROW * np.asarray(twist["v"])])
             made.lines.append(Line("translation", ends, "the object may translate along this direction", tag="T"))
         elif "shoulder" not in twist["name"]:  # that one is drawn already
-            start, w = np.asarray(twist["point"]), np.asarray(twist["w"])
-            reach = float(w @ (_other_end(arms, twist["name"]) - start))
-            ends = start + np.outer([-0.04, reach + 0.04], w)
+            start, end = np.asarray(twist["points"])
+            ends = np.stack([start, end]) + np.outer([-0.04, 0.04], twist["w"])
             made.lines.append(Line("rotation", ends, f"the object may turn about the {twist['name']}", tag="R"))
     names = iter(joint_names)
     for side, arm, number in (("right", right, 1), ("left", left, 2)):
@@ -79,11 +78,6 @@ def draw(arms: Arms, pose: dict[str, Any], joint_names: Sequence[str]) -> Drawin
         made.marks.append(Mark("S", arm.s, f"S: centre of the {side} spherical joint", side, f"S{letter}"))
         made.marks.append(Mark("hand", arm.hand, f"{side} hand", side, ""))
     return made
-
-
-def _other_end(arms: Arms, name: str) -> Array:
-    """The second point of an edge named in mobility.object_twists: ... S_R U_L ends in U_L."""
-    return {"U_L": arms.left.u, "S_L": arms.left.s, "U_R": arms.right.u}[name.replace(" of the S centres", "").split()[-1]]
 
 
 # ---- the plotly figure

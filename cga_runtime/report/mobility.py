@@ -67,12 +67,12 @@ def object_twists(arms: Arms, forces: Array) -> list[dict[str, Any]]:
 
     A force along a line does no work on a translation normal to it, nor on a rotation about a line that it meets. So the object may
     translate along every direction normal to both forces, and turn about the edges of the tetrahedron U_R S_R S_L U_L that meet both:
-    the shoulder line, the line of the S centres, and the two lines across. Each twist: kind, name, w and v about the origin, a point on
-    its axis.
+    the shoulder line, the line of the S centres, and the two lines across. Each twist: kind, name, w and v about the origin, and the
+    two points that the axis of a rotation goes through.
     """
     right, left = arms.right, arms.left
     twists: list[dict[str, Any]] = [
-        {"kind": "translation", "name": "normal to both forces", "w": np.zeros(3), "v": _signed(n), "point": None}
+        {"kind": "translation", "name": "normal to both forces", "w": np.zeros(3), "v": _signed(n), "points": None}
         for n in normals(forces, left.u - right.u)
     ]
     edges = {
@@ -86,7 +86,7 @@ def object_twists(arms: Arms, forces: Array) -> list[dict[str, Any]]:
         w, v = line_through(a, b)
         trial = np.array([np.concatenate([t["w"], t["v"] / length]) for t in [*twists, {"w": w, "v": v}]])
         if np.linalg.svd(trial, compute_uv=False)[-1] > SPAN:
-            twists.append({"kind": "rotation", "name": name, "w": w, "v": v, "point": a})
+            twists.append({"kind": "rotation", "name": name, "w": w, "v": v, "points": [a, b]})
     return twists
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from markupsafe import Markup, escape
+from markupsafe import Markup
 from numpy.typing import NDArray
 
 from cga_runtime.report.drawing import Drawing, Line, Mark
@@ -77,7 +77,7 @@ def _mark(mark: Mark, view: View) -> Markup:
 
 
 def _text(at: Array, words: str, kind: str) -> Markup:
-    return Markup('<text x="{:.1f}" y="{:.1f}" class="{}">{}</text>').format(float(at[0]), float(at[1]), kind, escape(words))
+    return Markup('<text x="{:.1f}" y="{:.1f}" class="{}">{}</text>').format(float(at[0]), float(at[1]), kind, words)
 
 
 def _compass(view: View) -> Markup:

@@ -40,14 +40,22 @@ def robot_record(model: RobotModel, chains: Sequence[str], loops: Sequence[tuple
     }
 
 
+def _loop(model: RobotModel, right: str, left: str) -> Loop:
+    loop = Loop(loop_name(right, left), model.chain(right), model.chain(left))
+    if shared := sorted({joint.name for joint in loop.right.joints} & {joint.name for joint in loop.left.joints}):
+        raise ModelError(f"{model.name}: the chains to {right} and {left} share joints ({', '.join(shared)}); a loop needs separate arms")
+    return loop
+
+
 def generate_robot(
     model: RobotModel, chains: Sequence[str], loops: Sequence[tuple[str, str]], say: Progress
 ) -> tuple[dict[str, str], list[UnitRecord], dict[str, Any]]:
-    """Texts, records and manifest entry of one robot. Raises ModelError for a frame that does not exist or does not move."""
+    """Texts, records and manifest entry of one robot. Raises ModelError for a frame that does not exist or
+    does not move, and for a pair of chains that share joints."""
     record = robot_record(model, chains, loops)
     files = {record["description"]: json.dumps(model.to_json(), indent=1, sort_keys=True) + "\n"}
     units: list[UnitRecord] = []
-    loop_of = {pair: Loop(loop_name(*pair), model.chain(pair[0]), model.chain(pair[1])) for pair in loops}
+    loop_of = {pair: _loop(model, *pair) for pair in loops}
     made = [chain_unit(model.chain(frame)) for frame in chains] + [loop_unit(loop) for loop in loop_of.values()]
     for texts, unit in made:
         say(f"{unit.title}: {len(unit.kernels)} kernels, {sum(k.counts.total for k in unit.kernels)} operations")

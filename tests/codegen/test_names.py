@@ -60,3 +60,12 @@ def test_two_subjects_of_one_name_are_refused():
 def test_a_frame_that_does_not_move_is_refused(tmp_path):
     with pytest.raises(ModelError, match="^small: no joint lies between the root and 'base'; name a frame that moves$"):
         generate([(robot("a"), ["base"], [])], tmp_path, silent)
+
+
+def test_a_loop_of_arms_that_share_joints_is_refused():
+    links = "".join(f'<link name="{name}"/>' for name in ("base", "trunk", "left", "right"))
+    joint = '<joint name="to {1}" type="continuous"><parent link="{0}"/><child link="{1}"/></joint>'
+    joints = "".join(joint.format(*ends) for ends in (("base", "trunk"), ("trunk", "left"), ("trunk", "right")))
+    model = load_urdf(f'<robot name="small">{links}{joints}</robot>')
+    with pytest.raises(ModelError, match=r"^small: the chains to left and right share joints \(to trunk\); a loop needs separate arms$"):
+        generate_robot(model, ["left"], [("left", "right")], silent)

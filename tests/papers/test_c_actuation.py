@@ -227,8 +227,8 @@ def test_closed_form_of_the_best_scheme():
 
 
 def test_why_twenty_schemes_fail_where_q1_is_q6():
-    """On q1 = q6 both shoulder and both S centres lie in one plane with the shoulder line. For each of the twenty, a line through two of these
-    points meets all six passive axes (1237: the line AB); elsewhere none does."""
+    """On q1 = q6 both shoulder and both S centres lie in one plane with the shoulder line. For each of the twenty, a line through two of
+    these points meets all six passive axes (1237: the line AB); elsewhere none does."""
     twenty = [tuple(scheme) for scheme in ORACLE["singular_on_q1_eq_q6"]]
     for pose in poses(82, 10):
         planar = Pose(np.where(np.arange(10) == 5, pose.q[0], pose.q))

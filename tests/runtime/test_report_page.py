@@ -138,6 +138,7 @@ def test_table_of_schemes_has_210_rows_with_the_numbers_of_the_json(page, made):
     assert sum(a["data-orbit"] == "first" for a in rows) == 110 and sum(a["data-class"] == "never" for a in rows) == 71
     cells = {row[0]: row for row in page.rows if len(row) == 9}
     best = next(row for row in table if row["actuated"] == [1, 3, 7, 8])
+    assert any(row[:1] == ["actuation of " + " ".join(map(str, made[1]["schemes"]["best_median"]))] for row in page.rows)
     assert cells["1 3 7 8"][6] == f"{best['mu_median']:.3f}" and cells["2 3 4 5"][3].startswith("never")
 
 
@@ -182,6 +183,11 @@ def test_object_twists_are_reciprocal_and_independent(nao, rng):
         forces = [wrench for arm in found.wrenches for wrench in arm]
         twists = object_twists(arms, np.array([wrench.f for wrench in forces]))
         assert [twist["kind"] for twist in twists].count("translation") == 1 and len(twists) == 4
+        ends = {"shoulder line U_R U_L": [arms.right.u, arms.left.u], "line S_R S_L of the S centres": [arms.right.s, arms.left.s]}
+        ends["line S_R U_L"] = [arms.right.s, arms.left.u]
+        assert {twist["name"]: np.array(twist["points"]).tolist() for twist in twists[1:]} == {
+            k: np.array(v).tolist() for k, v in ends.items()
+        }
         matrix = np.array([np.concatenate([twist["w"], twist["v"]]) for twist in twists])
         assert np.linalg.matrix_rank(matrix, tol=1e-9) == 4
         for wrench in forces:

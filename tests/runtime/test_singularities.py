@@ -238,7 +238,7 @@ def test_bad_questions():
 
 
 def test_shoulders_that_are_not_collinear():
-    """A raised arm: f = 0 in both arms is no constraint singularity there (the two forces are parallel, W^c keeps rank 2), so it is refused."""
+    """A raised arm: with f = 0 in both arms the two forces are parallel, W^c keeps rank 2, and the question is refused."""
     up = np.eye(4)
     up[2, 3] = 0.013
     loop = ClosedChain(ROBOTS["nao"].chain("RHand"), ROBOTS["nao"].chain("LHand", placement=up))
