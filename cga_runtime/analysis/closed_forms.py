@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.analysis.singularities import require_wrist_centres
-from cga_runtime.errors import SchemeError
+from cga_runtime.errors import DegenerateError, SchemeError
 from cga_runtime.spaces.closed_chain import LENGTH, ClosedChain
 
 Array = NDArray[np.float64]
@@ -38,9 +38,11 @@ def determinant_factors(loop: ClosedChain, q: ArrayLike, actuated: Sequence[int]
     """Named factors, each (...), whose product is `loop.determinant(q, actuated)`.
 
     Known for {1,2,3,7} (five factors), for schemes of four right joints (two screws' reciprocal product and two limb factors), and for
-    {1,3,7,8} (one bracket of two planar pencils). Raises SchemeError for others, DegenerateError for arms without wrist centres.
+    {1,3,7,8} (one bracket of two planar pencils). Raises SchemeError for others, DegenerateError for arms without
+    wrist centres or a common first axis.
     """
     require_wrist_centres(loop)
+    _require_common_axis(loop)
     chosen = tuple(j + 1 for j in loop.scheme(actuated)[0])
     rule = _RULES.get(chosen)
     if rule is None:
@@ -48,6 +50,14 @@ def determinant_factors(loop: ClosedChain, q: ArrayLike, actuated: Sequence[int]
         raise SchemeError(f"scheme {chosen}: no closed form is known; known: {known}")
     factors = rule(_arms(loop, q))
     return {"1 / LENGTH^3": np.asarray(LENGTH**-3.0), **factors}
+
+
+def _require_common_axis(loop: ClosedChain) -> None:
+    """DegenerateError unless the two first axes, which no joint moves, are one line."""
+    screws = loop.twists(np.zeros(loop.n))
+    first, second = screws[:, 0], screws[:, loop.right.n]
+    if min(np.abs(first - second).max(), np.abs(first + second).max()) > 1e-12:
+        raise DegenerateError(f"{loop!r}: the closed forms need first axes that are one line")
 
 
 def _arms(loop: ClosedChain, q: ArrayLike) -> _Arms:

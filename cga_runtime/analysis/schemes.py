@@ -61,8 +61,10 @@ def atlas(
 ) -> list[dict[str, Any]]:
     """One row a scheme, ascending in its actuated joints (1-based).
 
-    Keys: actuated; orbit (the smaller of the scheme and its mirror image, arms exchanged); class; reason; certified; witness (half-angle
-    tangents of an exact full-rank point, or None); mu_median, mu_p05, mu_below_001 over `samples` uniform poses with free grasps.
+    Keys: actuated; orbit (the smaller of the scheme and its mirror image, arms exchanged); class; reason; certified (the rank, full or
+    deficient, is proved by an exact point or by structure; that a scheme is singular on all mirror poses rests on POINTS exact ones);
+    witness (half-angle tangents of an exact full-rank point, or None); mu_median, mu_p05, mu_below_001 over `samples` uniform poses with
+    free grasps.
     """
     schemes = [tuple(j + 1 for j in scheme) for scheme in combinations(range(loop.n), loop.actuators)]
     rng = np.random.default_rng(seed)

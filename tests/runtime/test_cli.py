@@ -246,3 +246,11 @@ def test_warnings_go_to_standard_error_once():
     done = subprocess.run(line, capture_output=True, text=True, env=environment)
     assert done.returncode == 0 and json.loads(done.stdout)["joint_mobility"] == 4
     assert done.stderr == "warning: CGA_NO_COMPILER is set: kernels run as Python text, about a hundred times slower\n"
+
+
+def test_a_package_that_is_not_installed_is_named(command, monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "pinocchio", None)
+    for line in (["mobility", URDF], ["generate", URDF, "-o", tmp_path / "new"], ["generate", "-o", tmp_path / "new"]):
+        status, out, err = command(*line)
+        assert status == 2 and not out
+        assert err == "MissingExtraError: reading a URDF needs pinocchio (pip name: pin): pip install 'cga-robotics[urdf]'\n"

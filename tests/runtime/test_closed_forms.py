@@ -55,3 +55,12 @@ def test_arms_without_wrist_centres_are_refused():
     short = ClosedChain(nao.chain("RHand"), nao.chain("LForeArm"))
     with pytest.raises(DegenerateError, match="limb factors need two arms of five revolute joints"):
         determinant_factors(short, np.zeros(9), (1, 2, 3))
+
+
+def test_shoulders_that_are_not_collinear_are_refused():
+    nao = load_robot("nao")
+    raised = np.eye(4)
+    raised[2, 3] = 0.013
+    loop = ClosedChain(nao.chain("RHand"), nao.chain("LHand", placement=raised))
+    with pytest.raises(DegenerateError, match="the closed forms need first axes that are one line"):
+        determinant_factors(loop, np.zeros(10), (1, 2, 3, 7))

@@ -116,9 +116,10 @@ def _centres(chain: Chain) -> tuple[float, float, float] | None:
     (u, gap12), (s34, gap34), (s35, gap35) = meeting(0, 1), meeting(2, 3), meeting(2, 4)
     if max(gap12, gap34, gap35, abs(s34 - s35)) > 1e-12:
         return None
-    u, s = round(u, 14), round(s34, 14)
+    # a centre at a joint's origin lies there exactly; the arithmetic above is plain IEEE, so the constants are the same everywhere
+    u, s = (0.0 if abs(x) < 1e-15 else x for x in (u, s34))
     arm = minus(plus(at.points[2], times(s, at.axes[2])), plus(at.points[0], times(u, at.axes[0])))
-    return u, s, round(float(dot(arm, arm)) ** 0.5, 15)
+    return u, s, float(dot(arm, arm)) ** 0.5
 
 
 def has_wrist_centre(loop: Loop) -> bool:

@@ -2607,7 +2607,7 @@ CGA_EXPORT int cga_nao_v32_RHand_with_LHand_limb_factors_batch(int64_t n, const 
 }
 
 /* Per arm (right, left) the unit pure force through U and S that no joint of the arm can work against (paper C, eq. 15). From cga_codegen.kernels.closed_chain.constraint_wrenches.
-   20 mul, 6 add, 0 div, 0 sqrt. */
+   18 mul, 6 add, 0 div, 0 sqrt. */
 static inline void cga_nao_v32_RHand_with_LHand_constraint_wrenches_body(const T *restrict c, const T *restrict s, T *restrict out)
 {
     const T t0 = c[1] * c[0];
@@ -2624,30 +2624,28 @@ static inline void cga_nao_v32_RHand_with_LHand_constraint_wrenches_body(const T
     const T t11 = s[1] * K(0.09999999999999999);
     const T t12 = t10 - t11;
     const T t13 = c[6] * c[5];
-    const T t14 = K(0.9999999999999999) * t13;
-    const T t15 = K(0.9999999999999999) * s[6];
-    const T t16 = K(0.09799999999999999) * t13;
-    const T t17 = c[6] * s[5];
-    const T t18 = K(0.09) * t17;
-    const T t19 = K(0.1) - t18;
-    const T t20 = K(0.1) - t19;
-    const T t21 = K(11.11111111111111) * t20;
-    const T t22 = K(0.09999999999999999) * t13;
-    const T t23 = K(1.0888888888888888) * t20;
-    const T t24 = K(0.09999999999999999) * s[6];
-    const T t25 = t23 + t24;
+    const T t14 = t13 * K(0.098);
+    const T t15 = c[6] * s[5];
+    const T t16 = K(0.09) * t15;
+    const T t17 = K(0.1) - t16;
+    const T t18 = K(0.1) - t17;
+    const T t19 = K(11.111111111111112) * t18;
+    const T t20 = K(0.1) * t13;
+    const T t21 = t18 * K(1.088888888888889);
+    const T t22 = K(0.1) * s[6];
+    const T t23 = t21 + t22;
     out[0] = t1;
     out[1] = t2;
     out[2] = t3;
     out[3] = -t8;
     out[4] = -t9;
     out[5] = t12;
-    out[6] = t14;
-    out[7] = t15;
-    out[8] = -t16;
-    out[9] = -t21;
-    out[10] = -t22;
-    out[11] = -t25;
+    out[6] = t13;
+    out[7] = s[6];
+    out[8] = -t14;
+    out[9] = -t19;
+    out[10] = -t20;
+    out[11] = -t23;
 }
 
 CGA_EXPORT int cga_nao_v32_RHand_with_LHand_constraint_wrenches(const double *restrict q /* 10 */, double *restrict out /* 12 */)

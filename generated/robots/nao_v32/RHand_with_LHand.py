@@ -2350,7 +2350,7 @@ def limb_factors(c, s):
 def constraint_wrenches(c, s):
     """Per arm (right, left) the unit pure force through U and S that no joint of the arm can work against (paper C, eq. 15). From cga_codegen.kernels.closed_chain.constraint_wrenches.
 
-    Result: shape (2, 6). 20 mul, 6 add, 0 div, 0 sqrt."""
+    Result: shape (2, 6). 18 mul, 6 add, 0 div, 0 sqrt."""
     t0 = c[1]*c[0]
     t1 = 0.9999999999999999*t0
     t2 = 0.9999999999999999*s[1]
@@ -2365,16 +2365,14 @@ def constraint_wrenches(c, s):
     t11 = s[1]*0.09999999999999999
     t12 = t10-t11
     t13 = c[6]*c[5]
-    t14 = 0.9999999999999999*t13
-    t15 = 0.9999999999999999*s[6]
-    t16 = 0.09799999999999999*t13
-    t17 = c[6]*s[5]
-    t18 = 0.09*t17
-    t19 = 0.1-t18
-    t20 = 0.1-t19
-    t21 = 11.11111111111111*t20
-    t22 = 0.09999999999999999*t13
-    t23 = 1.0888888888888888*t20
-    t24 = 0.09999999999999999*s[6]
-    t25 = t23+t24
-    return (t1, t2, t3, -t8, -t9, t12, t14, t15, -t16, -t21, -t22, -t25,)
+    t14 = t13*0.098
+    t15 = c[6]*s[5]
+    t16 = 0.09*t15
+    t17 = 0.1-t16
+    t18 = 0.1-t17
+    t19 = 11.111111111111112*t18
+    t20 = 0.1*t13
+    t21 = t18*1.088888888888889
+    t22 = 0.1*s[6]
+    t23 = t21+t22
+    return (t1, t2, t3, -t8, -t9, t12, t13, s[6], -t14, -t19, -t20, -t23,)
