@@ -142,7 +142,7 @@ def three_d(made: Drawing) -> Figure:
         f"{name}axis": {"title": {"text": f"{name} {words} (m)", "font": {"size": 14}}, "nticks": 5, "tickfont": {"size": 12}}
         for name, words in (("x", "forward"), ("y", "left"), ("z", "up"))
     }
-    eye = {"x": 1.0, "y": -0.87, "z": 0.65}
+    eye = {"x": 0.8, "y": -0.7, "z": 0.52}
     scene = {**axes, "aspectmode": "data", "camera": {"eye": eye, "projection": {"type": "orthographic"}}}
     return figure(traces, {"scene": scene, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}, "showlegend": False, "uirevision": "keep"})
 
