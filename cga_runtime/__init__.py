@@ -5,6 +5,7 @@
     arm.pose(q); arm.jacobian(q); arm.casadi("motor")
 """
 
+from cga_runtime.analysis.closed_chain import ClosedChain as ClosedChain
 from cga_runtime.elements import Circle as Circle
 from cga_runtime.elements import Line as Line
 from cga_runtime.elements import Plane as Plane
@@ -31,6 +32,5 @@ from cga_runtime.robot import bundled_robots as bundled_robots
 from cga_runtime.robot import load_robot as load_robot
 from cga_runtime.solve.reaching import Solution as Solution
 from cga_runtime.solve.reaching import reach as reach
-from cga_runtime.spaces.closed_chain import ClosedChain as ClosedChain
 
 __version__ = "0.1.0"

@@ -60,7 +60,6 @@ ROOMS = {
     f"{RUN}.compile": Room(up_to("compile"), ("numpy",), lazily=("casadi", "ziglang")),
     f"{RUN}.workshop": Room((*up_to("workshop"), GEN), ("numpy",), lazily=("casadi",)),  # the one door to cga_codegen
     **{f"{RUN}.{room}": Room(up_to(room), ("casadi", "numpy")) for room in LINE[LINE.index("robot") : LINE.index("report")]},
-    f"{RUN}.spaces.closed_chain": Room((*up_to("spaces"), f"{RUN}.analysis"), ("casadi", "numpy")),  # its methods are doors
     f"{RUN}.experiments.bench": Room(up_to("experiments"), ("casadi", "numpy"), lazily=("pinocchio",)),  # the peer it measures
     f"{RUN}.control.simulation": Room(up_to("control"), ("casadi", "numpy"), lazily=("mujoco",)),
     f"{RUN}.report": Room(up_to("report"), ("casadi", "jinja2", "markupsafe", "numpy", "plotly"), lazily=("mujoco",)),

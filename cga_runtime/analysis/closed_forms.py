@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.analysis.singularities import require_wrist_centres
 from cga_runtime.errors import DegenerateError, SchemeError
-from cga_runtime.spaces.closed_chain import LENGTH, ClosedChain
+from cga_runtime.spaces.closed_chain import LENGTH, ClosedLoop
 
 Array = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ class _Arms:
     centre_left: Array
 
 
-def determinant_factors(loop: ClosedChain, q: ArrayLike, actuated: Sequence[int]) -> dict[str, Array]:
+def determinant_factors(loop: ClosedLoop, q: ArrayLike, actuated: Sequence[int]) -> dict[str, Array]:
     """Named factors, each (...), whose product is `loop.determinant(q, actuated)`.
 
     Known for {1,2,3,7} (five factors), for schemes of four right joints (two screws' reciprocal product and two limb factors), and for
@@ -52,7 +52,7 @@ def determinant_factors(loop: ClosedChain, q: ArrayLike, actuated: Sequence[int]
     return {"1 / LENGTH^3": np.asarray(LENGTH**-3.0), **factors}
 
 
-def _require_common_axis(loop: ClosedChain) -> None:
+def _require_common_axis(loop: ClosedLoop) -> None:
     """DegenerateError unless the two first axes, which no joint moves, are one line."""
     screws = loop.twists(np.zeros(loop.n))
     first, second = screws[:, 0], screws[:, loop.right.n]
@@ -60,7 +60,7 @@ def _require_common_axis(loop: ClosedChain) -> None:
         raise DegenerateError(f"{loop!r}: the closed forms need first axes that are one line")
 
 
-def _arms(loop: ClosedChain, q: ArrayLike) -> _Arms:
+def _arms(loop: ClosedLoop, q: ArrayLike) -> _Arms:
     twists = np.swapaxes(loop.twists(q), -1, -2)
     centres, limb = loop.kernel("wrist_centres")(q), loop.kernel("limb_factors")(q)
     w, v = twists[..., :3], twists[..., 3:]

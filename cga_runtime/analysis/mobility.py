@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.errors import WrongSizeError
-from cga_runtime.spaces.closed_chain import LENGTH, ClosedChain
+from cga_runtime.spaces.closed_chain import LENGTH, ClosedLoop
 
 Array = NDArray[np.float64]
 
@@ -68,7 +68,7 @@ class Mobility:
         return np.array(rows).reshape(-1, 6)
 
 
-def mobility(loop: ClosedChain, q: ArrayLike) -> Mobility:
+def mobility(loop: ClosedLoop, q: ArrayLike) -> Mobility:
     """The mobility of a closed chain at q, shape (n,), for the grasp that q closes (paper C, eqs. 11-16)."""
     q = loop.check(q)
     if q.ndim != 1:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.analysis.certificates import NotRationalError, RationalArm, exact_rank, mirror_signs
-from cga_runtime.spaces.closed_chain import LENGTH, ClosedChain
+from cga_runtime.spaces.closed_chain import LENGTH, ClosedLoop
 
 Array = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ REASON_POINTS = f"rank deficient at {POINTS} exact rational points (no structura
 REASON_FLOAT = "the description is not exactly rational: decided by mu over the sampled poses"
 
 
-def conditioning(loop: ClosedChain, q: ArrayLike, schemes: Sequence[Sequence[int]]) -> Array:
+def conditioning(loop: ClosedLoop, q: ArrayLike, schemes: Sequence[Sequence[int]]) -> Array:
     """mu of each scheme (1-based actuated joints) at q (..., n): shape (..., number of schemes), in [0, 1].
 
     mu_a = sigma_min(N[a, :]), N an orthonormal basis of the joint velocities that keep the loop closed, null [J_R, -J_L]. It needs no
@@ -57,7 +57,7 @@ def conditioning(loop: ClosedChain, q: ArrayLike, schemes: Sequence[Sequence[int
 
 
 def atlas(
-    loop: ClosedChain, samples: int = 3000, seed: int = 0, progress: Callable[[int, int], None] | None = None
+    loop: ClosedLoop, samples: int = 3000, seed: int = 0, progress: Callable[[int, int], None] | None = None
 ) -> list[dict[str, Any]]:
     """One row a scheme, ascending in its actuated joints (1-based).
 
@@ -116,7 +116,7 @@ def _best(table: Sequence[dict[str, Any]], key: str) -> list[int]:
     return list(best)
 
 
-def _exchanged(loop: ClosedChain, scheme: Sequence[int]) -> tuple[int, ...]:
+def _exchanged(loop: ClosedLoop, scheme: Sequence[int]) -> tuple[int, ...]:
     """The same scheme with the arms exchanged (arms of equal length only; else the scheme itself)."""
     half = loop.right.n
     if half != loop.left.n:
@@ -124,7 +124,7 @@ def _exchanged(loop: ClosedChain, scheme: Sequence[int]) -> tuple[int, ...]:
     return tuple(sorted(j + half if j <= half else j - half for j in scheme))
 
 
-def _classify(loop: ClosedChain, schemes: Sequence[tuple[int, ...]], mu: Array, rng: np.random.Generator) -> list[dict[str, Any]]:
+def _classify(loop: ClosedLoop, schemes: Sequence[tuple[int, ...]], mu: Array, rng: np.random.Generator) -> list[dict[str, Any]]:
     try:
         right, left = RationalArm.of(loop.right), RationalArm.of(loop.left)
     except NotRationalError:
@@ -156,7 +156,7 @@ def _full(screws: Sequence[list[Fraction]], passive: Sequence[int]) -> bool:
     return exact_rank([screws[j] for j in passive]) == 6
 
 
-def _reason(loop: ClosedChain, passive: Sequence[int], one_line: bool) -> str:
+def _reason(loop: ClosedLoop, passive: Sequence[int], one_line: bool) -> str:
     base = (0, loop.right.n)
     if one_line and set(base) <= set(passive):
         return REASON_BASE.format(base[0] + 1, base[1] + 1)

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.errors import DegenerateError, SchemeError, UnknownNameError
 from cga_runtime.solve.ipopt import Bounds, Program
-from cga_runtime.spaces.closed_chain import LENGTH, ClosedChain
+from cga_runtime.spaces.closed_chain import LENGTH, ClosedLoop
 
 Array = NDArray[np.float64]
 
@@ -96,13 +96,13 @@ class SingularityFreeBox:
     certified: bool = False
 
 
-def require_wrist_centres(loop: ClosedChain) -> None:
+def require_wrist_centres(loop: ClosedLoop) -> None:
     """DegenerateError unless both arms are universal-spherical."""
     if "limb_factors" not in loop.unit.names:
         raise DegenerateError(f"{loop!r}: limb factors need two arms of five revolute joints, axes 1, 2 meeting and axes 3, 4, 5 meeting")
 
 
-def limb_loci(loop: ClosedChain) -> tuple[LimbLocus, LimbLocus]:
+def limb_loci(loop: ClosedLoop) -> tuple[LimbLocus, LimbLocus]:
     """q2* of both arms in closed form: q2* = atan2(-f0, f1), or that +- pi (paper C 5.1 with atan2; q2 is the robot's joint angle)."""
     require_wrist_centres(loop)
     found = []
@@ -117,7 +117,7 @@ def limb_loci(loop: ClosedChain) -> tuple[LimbLocus, LimbLocus]:
     return found[0], found[1]
 
 
-def limb_factor_identity(loop: ClosedChain, q: ArrayLike) -> Array:
+def limb_factor_identity(loop: ClosedLoop, q: ArrayLike) -> Array:
     """sqrt det(J_S^T J_S) - |f sin q4| |US| for both arms, (..., 2): zero up to rounding. J_S is the twist Jacobian about S.
 
     The left side is the product of J_S's singular values: at a singularity the root of a rounded determinant would be off by 1e-10.
@@ -137,7 +137,7 @@ def limb_factor_identity(loop: ClosedChain, q: ArrayLike) -> Array:
 
 
 def nearest_singularity(
-    loop: ClosedChain,
+    loop: ClosedLoop,
     q: ArrayLike,
     kind: str = "limb",
     actuated: Sequence[int] | None = None,
@@ -179,7 +179,7 @@ def nearest_singularity(
 
 
 def singularity_free_box(
-    loop: ClosedChain, q: ArrayLike, actuated: Sequence[int], starts: int = 5, samples: int = 2000, seed: int = 0
+    loop: ClosedLoop, q: ArrayLike, actuated: Sequence[int], starts: int = 5, samples: int = 2000, seed: int = 0
 ) -> SingularityFreeBox:
     """min t subject to |q' - q|_inf <= t and D(q') = 0, from several starts; then a sampling check. Never certified."""
     at = loop.check_one(q)
@@ -232,7 +232,7 @@ def _shifts(rng: np.random.Generator, starts: int, n: int) -> Array:
     return rng.uniform(-0.5, 0.5, (starts - 1, n))
 
 
-def _factors(loop: ClosedChain, kind: str) -> tuple[str, ...]:
+def _factors(loop: ClosedLoop, kind: str) -> tuple[str, ...]:
     if kind == "actuation":
         return ("determinant",)
     require_wrist_centres(loop)
@@ -244,7 +244,7 @@ def _factors(loop: ClosedChain, kind: str) -> tuple[str, ...]:
     return ("f right, f left",)
 
 
-def _values(loop: ClosedChain, factor: str, scheme: tuple[int, ...] | None, q: Array) -> Array:
+def _values(loop: ClosedLoop, factor: str, scheme: tuple[int, ...] | None, q: Array) -> Array:
     """What has to vanish, from the numpy view of the kernels."""
     if scheme is not None:
         return np.atleast_1d(loop.determinant(q, scheme))
@@ -253,7 +253,7 @@ def _values(loop: ClosedChain, factor: str, scheme: tuple[int, ...] | None, q: A
 
 
 @lru_cache(PROGRAMS)
-def _nearest_program(loop: ClosedChain, factor: str, scheme: tuple[int, ...] | None) -> Program:
+def _nearest_program(loop: ClosedLoop, factor: str, scheme: tuple[int, ...] | None) -> Program:
     """min |q - p|^2 with the factors zero; p is the parameter."""
     import casadi
 
@@ -268,7 +268,7 @@ def _nearest_program(loop: ClosedChain, factor: str, scheme: tuple[int, ...] | N
 
 
 @lru_cache(PROGRAMS)
-def _box_program(loop: ClosedChain, scheme: tuple[int, ...]) -> Program:
+def _box_program(loop: ClosedLoop, scheme: tuple[int, ...]) -> Program:
     """min t over (q, t) with D(q) = 0 and -t <= q - p <= t."""
     import casadi
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cga_runtime.spaces.closed_chain import ClosedChain
+from cga_runtime.spaces.closed_chain import ClosedLoop
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ class Walk:
     newton_mean: float
 
 
-def close_loop(loop: ClosedChain, q: ArrayLike, grasp: ArrayLike, steps: int = NEWTON_STEPS) -> tuple[Array, int] | None:
+def close_loop(loop: ClosedLoop, q: ArrayLike, grasp: ArrayLike, steps: int = NEWTON_STEPS) -> tuple[Array, int] | None:
     """The nearest closed configuration by damped least-squares Newton on the closure equations, and the steps it took; None if it fails.
 
     Damping 1e-12 + 1e-3 |e|^2, steps capped at 0.5 rad; joint limits are not considered.
@@ -47,7 +47,7 @@ def close_loop(loop: ClosedChain, q: ArrayLike, grasp: ArrayLike, steps: int = N
     return None
 
 
-def walk(loop: ClosedChain, q0: ArrayLike, steps: int, rng: np.random.Generator, step: float = 0.2) -> Walk:
+def walk(loop: ClosedLoop, q0: ArrayLike, steps: int, rng: np.random.Generator, step: float = 0.2) -> Walk:
     """A random walk of `steps` tangent steps (rad) inside the joint limits on the manifold of the grasp that q0 closes.
 
     Each step goes along a random null direction of the closure Jacobian and is then closed by Newton; steps that fail or leave the

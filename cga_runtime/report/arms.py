@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cga_runtime.spaces.closed_chain import ClosedChain
+from cga_runtime.analysis.closed_chain import ClosedChain
 
 Array = NDArray[np.float64]
 

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cga_runtime.analysis.certificates import NotRationalError, RationalArm, mirror_signs
+from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.analysis.singularities import limb_loci
 from cga_runtime.errors import CgaError
 from cga_runtime.report.arms import Arms, arms_at
 from cga_runtime.robot import Robot
-from cga_runtime.spaces.closed_chain import ClosedChain
 
 Array = NDArray[np.float64]
 

@@ -19,7 +19,7 @@ from cga_runtime.robot import Chain
 from cga_runtime.solve.reaching_grasp import hold
 from cga_runtime.solve.reaching_problem import Form, bounds, parameters, program
 from cga_runtime.solve.reaching_targets import KINDS, Target, distance, duals
-from cga_runtime.spaces.closed_chain import ClosedChain
+from cga_runtime.spaces.closed_chain import ClosedLoop
 
 STARTS = 20
 TOLERANCE = 1e-6
@@ -45,7 +45,7 @@ class Solution:
 
 
 def reach(
-    what: Chain | ClosedChain | Sequence[Chain],
+    what: Chain | ClosedLoop | Sequence[Chain],
     target: Target | PointPair,
     q0: ArrayLike | None = None,
     *,
@@ -112,11 +112,11 @@ def reach(
     return Solution(q, success, status, best.iterations, miss, best.seconds, best.starts, best.attempt.iterations)
 
 
-def _subject(what: Any) -> tuple[tuple[Chain, ...], ClosedChain | None]:
+def _subject(what: Any) -> tuple[tuple[Chain, ...], ClosedLoop | None]:
     """The arms in the order of their joints in q, and the closed chain that they form, if they do."""
     if isinstance(what, Chain):
         return (what,), None
-    if isinstance(what, ClosedChain):
+    if isinstance(what, ClosedLoop):
         return (what.right, what.left), what
     if not (isinstance(what, Sequence) and len(what) == 2 and all(isinstance(chain, Chain) for chain in what)):
         raise UnknownNameError("subject", type(what).__name__, ("a Chain", "a sequence of two Chains", "a ClosedChain"))

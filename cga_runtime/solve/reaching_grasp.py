@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from cga_runtime.coordinates import Array, read
 from cga_runtime.elements import Motor
 from cga_runtime.errors import DegenerateError, GraspError, SchemeError
-from cga_runtime.spaces.closed_chain import CLOSED, LENGTH, ClosedChain
+from cga_runtime.spaces.closed_chain import CLOSED, LENGTH, ClosedLoop
 
 SINGULAR = 1e-9
 """A limb factor f sin q4 / LENGTH, or a determinant D_a, below this at q0 counts as zero: margins cannot be relative to it."""
@@ -26,7 +26,7 @@ class Held:
     limb_signs are those of f sin q4 at q0, determinant is D_a at q0, scheme the actuated joints (1-based).
     """
 
-    loop: ClosedChain
+    loop: ClosedLoop
     grasp: Array
     object_point: Array
     limb_margin: float | None
@@ -52,7 +52,7 @@ class Held:
         return worst
 
 
-def limb_values(loop: ClosedChain, q: Array) -> Array:
+def limb_values(loop: ClosedLoop, q: Array) -> Array:
     """f sin q4 / LENGTH of the right and the left arm, (2,)."""
     if "limb_factors" not in loop.unit.names:
         raise DegenerateError(f"limb_margin: the arms {loop.right.frame} and {loop.left.frame} have no wrist centre, hence no limb factors")
@@ -60,7 +60,7 @@ def limb_values(loop: ClosedChain, q: Array) -> Array:
 
 
 def hold(
-    loop: ClosedChain,
+    loop: ClosedLoop,
     q0: Array,
     grasp: ArrayLike | Motor | None = None,
     object_point: ArrayLike | None = None,
@@ -89,7 +89,7 @@ def hold(
 
 
 def _scheme_at(
-    loop: ClosedChain, q0: Array, grasp: Array, scheme_margin: tuple[Sequence[int], float]
+    loop: ClosedLoop, q0: Array, grasp: Array, scheme_margin: tuple[Sequence[int], float]
 ) -> tuple[tuple[int, ...], float, float]:
     """Actuated joints, fraction, and D_a(q0)."""
     try:

@@ -23,7 +23,7 @@ from cga_runtime.kernels import Unit
 from cga_runtime.robot import Chain
 from cga_runtime.solve.ipopt import Bounds, Program
 from cga_runtime.solve.reaching_grasp import Held
-from cga_runtime.spaces.closed_chain import LENGTH, ClosedChain
+from cga_runtime.spaces.closed_chain import LENGTH, ClosedLoop
 
 CLOSURE_SCALE = 10.0
 
@@ -41,7 +41,7 @@ class Form:
     scheme: tuple[int, ...] | None
     conditioned: bool
     chains: tuple[Chain, ...] = field(compare=False)
-    loop: ClosedChain | None = field(compare=False)
+    loop: ClosedLoop | None = field(compare=False)
 
     @classmethod
     def of(cls, chains: tuple[Chain, ...], rows: tuple[int, ...], held: Held | None) -> Form:

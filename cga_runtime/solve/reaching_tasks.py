@@ -17,7 +17,7 @@ from cga_runtime.coordinates import Array
 from cga_runtime.elements import Line, Plane, Point, PointPair, Sphere
 from cga_runtime.solve.reaching import STARTS, Solution, middle, reach
 from cga_runtime.solve.reaching_grasp import Held, hold
-from cga_runtime.spaces.closed_chain import CLOSED, ClosedChain
+from cga_runtime.spaces.closed_chain import CLOSED, ClosedLoop
 
 Problem = tuple[Any, Any, Array, dict[str, Any]]
 """What is moved, the target, where the search begins, and further options of `reach`."""
@@ -37,7 +37,7 @@ WALK = 20
 
 
 def run_tasks(
-    loop: ClosedChain,
+    loop: ClosedLoop,
     tries: int = 100,
     seed: int = 0,
     progress: Callable[[str], None] = lambda line: None,
@@ -69,13 +69,13 @@ def run_tasks(
     return results
 
 
-def _closed(loop: ClosedChain) -> Array:
+def _closed(loop: ClosedLoop) -> Array:
     pose = np.array(GRASP_POSE)
     inside = loop.n == len(pose) and bool(((loop.lower <= pose) & (pose <= loop.upper)).all())
     return pose if inside else middle(loop.lower, loop.upper)
 
 
-def _free_tasks(loop: ClosedChain) -> dict[str, Series]:
+def _free_tasks(loop: ClosedLoop) -> dict[str, Series]:
     """The right arm to a primitive, and both arms to a point pair or a line."""
     arm, arms = loop.right, (loop.right, loop.left)
     q1, q2 = middle(arm.lower, arm.upper), middle(loop.lower, loop.upper)
@@ -100,7 +100,7 @@ def _free_tasks(loop: ClosedChain) -> dict[str, Series]:
     }
 
 
-def _held_tasks(loop: ClosedChain, closed: Array, scheme: Sequence[int], limb_margin: float, scheme_fraction: float) -> dict[str, Series]:
+def _held_tasks(loop: ClosedLoop, closed: Array, scheme: Sequence[int], limb_margin: float, scheme_fraction: float) -> dict[str, Series]:
     """The right hand's origin, as a point of an object that both hands hold, to a point."""
 
     def held(**options: Any) -> Series:

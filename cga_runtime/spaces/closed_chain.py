@@ -1,4 +1,4 @@
-"""Two arms that hold one rigid object: the closed chain of paper C, its closure, and the doors to its analyses.
+"""Two arms that hold one rigid object: the closed chain of paper C, its closure and its determinants. Analyses stand on it.
 
 Joints are numbered 1..n through both arms, the first (right) arm before the second; q is (..., n) in that order. Both chains have a
 common root frame. Twists and wrenches are about that frame's origin.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from operator import index
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,10 +18,6 @@ from cga_runtime.kernels import Kernel, finite, generated_folder, library, produ
 from cga_runtime.motors import REVERSE
 from cga_runtime.robot import Chain
 
-if TYPE_CHECKING:
-    from cga_runtime.analysis.mobility import Mobility
-    from cga_runtime.analysis.singularities import Nearest, SingularityFreeBox
-
 Array = NDArray[np.float64]
 
 LENGTH = 0.1
@@ -30,8 +26,11 @@ CLOSED = 1e-8
 """Largest closure error (bivector coefficients of M_R X ~M_L) of a configuration that counts as closed."""
 
 
-class ClosedChain:
-    """Two chains that grasp one object. Raises GraspError if they share joints, or have fewer than six joints together."""
+class ClosedLoop:
+    """Two chains that grasp one object; users meet it as `cga.ClosedChain`, with its analyses as methods.
+
+    Raises GraspError if they share joints, or have fewer than seven joints together.
+    """
 
     def __init__(self, right: Chain, left: Chain) -> None:
         shared = set(right.joint_names) & set(left.joint_names) if right.robot is left.robot else set()
@@ -46,11 +45,11 @@ class ClosedChain:
         self.lower, self.upper = np.concatenate([right.lower, left.lower]), np.concatenate([right.upper, left.upper])
 
     def __repr__(self) -> str:
-        return f"<ClosedChain {self.right.frame} + {self.left.frame}: {self.n} joints>"
+        return f"<{type(self).__name__} {self.right.frame} + {self.left.frame}: {self.n} joints>"
 
     def __eq__(self, other: object) -> bool:
         """Closed chains are equal where their kernels and limits are: what was built for one serves the other."""
-        return isinstance(other, ClosedChain) and self.unit is other.unit and bool((self._limits() == other._limits()).all())
+        return isinstance(other, ClosedLoop) and self.unit is other.unit and bool((self._limits() == other._limits()).all())
 
     def __hash__(self) -> int:
         return hash(self.unit)
@@ -146,40 +145,6 @@ class ClosedChain:
         """`determinant` at a casadi SX q."""
         _, passive = self.scheme(actuated)
         return _brackets().kernel("bracket").symbolic(self.kernel("screws").symbolic(q)[:, list(passive)]) / LENGTH**3
-
-    # the analyses: their code lies in cga_runtime.analysis, which stands on this room
-
-    def mobility(self, q: ArrayLike) -> Mobility:
-        """Twist and wrench systems, mobility and motion type at one configuration; see analysis.mobility."""
-        from cga_runtime.analysis.mobility import mobility
-
-        return mobility(self, q)
-
-    def conditioning(self, q: ArrayLike, actuated: Sequence[int]) -> Array:
-        """mu in [0, 1], shape (...): zero exactly at an actuation singularity; 1/mu bounds |q'| / |q'_actuated|."""
-        from cga_runtime.analysis.schemes import conditioning
-
-        return conditioning(self, q, [actuated])[..., 0]
-
-    def schemes(self, samples: int = 3000, seed: int = 0) -> list[dict[str, Any]]:
-        """All actuation schemes: class, reason, orbit, exact witness, statistics of mu; see analysis.schemes."""
-        from cga_runtime.analysis.schemes import atlas
-
-        return atlas(self, samples, seed)
-
-    def nearest_singularity(
-        self, q: ArrayLike, kind: str = "limb", actuated: Sequence[int] | None = None, **options: Any
-    ) -> Nearest:
-        """The nearest singularity of a kind ("limb", "constraint", "actuation"); see analysis.singularities."""
-        from cga_runtime.analysis.singularities import nearest_singularity
-
-        return nearest_singularity(self, q, kind, actuated, **options)
-
-    def singularity_free_box(self, q: ArrayLike, actuated: Sequence[int], **options: Any) -> SingularityFreeBox:
-        """Half-width of the largest box around q without a zero of the determinant, not certified; see analysis.singularities."""
-        from cga_runtime.analysis.singularities import singularity_free_box
-
-        return singularity_free_box(self, q, actuated, **options)
 
 
 def _brackets() -> Any:

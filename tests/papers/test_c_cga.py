@@ -16,9 +16,9 @@ from cga_codegen.algebra.blade_types import POINT, SCALAR, TRANSLATOR, TWIST, WR
 from cga_codegen.algebra.multivector import Multivector
 from cga_codegen.algebra.signature import CGA
 from cga_codegen.kernels.screws import Screw, bracket
+from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.analysis.mobility import Wrench
 from cga_runtime.robot import load_robot
-from cga_runtime.spaces.closed_chain import ClosedChain
 
 ROBOT = load_robot("nao")
 LOOP = ClosedChain(ROBOT.chain("RHand"), ROBOT.chain("LHand"))

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.analysis.sweep import walk
 from cga_runtime.robot import load_robot
-from cga_runtime.spaces.closed_chain import ClosedChain
 
 DATA = Path(__file__).parents[1] / "data"
 ORACLE = json.loads((DATA / "nao.json").read_text())

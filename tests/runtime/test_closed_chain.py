@@ -7,9 +7,10 @@ import casadi
 import numpy as np
 import pytest
 
+from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.errors import GraspError
 from cga_runtime.robot import load_robot
-from cga_runtime.spaces.closed_chain import LENGTH, ClosedChain
+from cga_runtime.spaces.closed_chain import LENGTH
 
 DATA = Path(__file__).parents[1] / "data"
 ORACLE = json.loads((DATA / "nao.json").read_text())

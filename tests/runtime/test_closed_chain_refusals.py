@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.errors import GraspError, NotFiniteError, SchemeError, UnknownNameError, WrongSizeError
 from cga_runtime.robot import load_robot
-from cga_runtime.spaces.closed_chain import ClosedChain
 
 ROBOT = load_robot("nao")
 LOOP = ClosedChain(ROBOT.chain("RHand"), ROBOT.chain("LHand"))

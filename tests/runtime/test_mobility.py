@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.errors import NotFiniteError, WrongSizeError
 from cga_runtime.robot import load_robot
-from cga_runtime.spaces.closed_chain import ClosedChain
 
 SINGULAR = json.loads((Path(__file__).parents[1] / "data" / "nao.json").read_text())["singular"]
 LOOPS = {}

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.analysis.schemes import (
     REASON_BASE,
     REASON_FLOAT,
@@ -19,7 +20,6 @@ from cga_runtime.analysis.schemes import (
 )
 from cga_runtime.analysis.sweep import walk
 from cga_runtime.robot import load_robot
-from cga_runtime.spaces.closed_chain import ClosedChain
 
 ORACLE = json.loads((Path(__file__).parents[1] / "data" / "nao.json").read_text())
 ALL = list(combinations(range(1, 11), 4))
