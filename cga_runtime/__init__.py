@@ -14,8 +14,10 @@ from cga_runtime.elements import PointPair as PointPair
 from cga_runtime.elements import Sphere as Sphere
 from cga_runtime.errors import CacheError as CacheError
 from cga_runtime.errors import CgaError as CgaError
+from cga_runtime.errors import ChainError as ChainError
 from cga_runtime.errors import CompilerError as CompilerError
 from cga_runtime.errors import DegenerateError as DegenerateError
+from cga_runtime.errors import FolderError as FolderError
 from cga_runtime.errors import GraspError as GraspError
 from cga_runtime.errors import KernelWarning as KernelWarning
 from cga_runtime.errors import MissingExtraError as MissingExtraError

@@ -27,6 +27,7 @@ def cache_folder(part: str) -> Path:
         folder.mkdir(exist_ok=True, mode=0o700)
     except OSError as error:
         raise CacheError(f"cannot make the folder {folder} ({error.strerror}); delete {root} or set XDG_CACHE_HOME") from error
+    _check_private(folder)
     return folder
 
 

@@ -117,10 +117,10 @@ def generate(
     def say(line: str) -> None:
         log.print(line, highlight=False)
 
-    if prove:
-        workshop.prove(say)
+    proved = workshop.prove(say) if prove else None
     if folder is None:
-        if prove and file is None:
+        if proved is not None and file is None:
+            show({"proved": proved}, json_)
             return
         raise WrongSizeError("generate: say where to write with -o DIR")
     if file is None:
@@ -198,7 +198,7 @@ def singularities(
 def schemes(
     robot: RobotName = "nao",
     samples: Annotated[int, typer.Option(min=1, help="Poses sampled for the statistics of mu.")] = 3000,
-    seed: int = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the sample.")] = 0,
     frames: Frames = "RHand,LHand",
     json_: AsJson = False,
 ) -> None:

@@ -85,7 +85,7 @@ def compile_library(name: str, source: str) -> ctypes.CDLL | None:
     A cached library whose digest does not match is thrown away and made again. Raises CompilerError if a compiler is there and fails,
     and CacheError if the cache cannot be trusted. CGA_NO_COMPILER=1 does without a compiler.
     """
-    if os.environ.get("CGA_NO_COMPILER"):
+    if os.environ.get("CGA_NO_COMPILER", "0") not in ("", "0"):
         _warn_once("CGA_NO_COMPILER is set")
         return None
     compiler = find_compiler(os.environ.get("CC") or None)
@@ -98,8 +98,17 @@ def compile_library(name: str, source: str) -> ctypes.CDLL | None:
         with locked(library):
             if not _intact(library):
                 _build(compiler, source, library)
+                return _load(compiler, library)
+            try:
+                return ctypes.CDLL(str(library))
+            except OSError:  # whole, but made for another system (a new libc, say): made again, once
+                _build(compiler, source, library)
+                return _load(compiler, library)
     except OSError as error:
         raise CacheError(f"cannot write {error.filename or library}: {error.strerror}; set XDG_CACHE_HOME to another folder") from error
+
+
+def _load(compiler: Compiler, library: Path) -> ctypes.CDLL:
     try:
         return ctypes.CDLL(str(library))
     except OSError as error:
@@ -116,8 +125,10 @@ def _seal(library: Path) -> Path:
 
 
 def _intact(library: Path) -> bool:
-    """Whether library and seal are there and match: loading a damaged library could kill the process."""
+    """Whether library and seal are there, ours, and match: loading a damaged library could kill the process."""
     try:
+        if os.name == "posix" and library.stat().st_uid != os.getuid():
+            return False
         return _seal(library).read_text(encoding="ascii") == digest(library.read_bytes())
     except (OSError, ValueError):
         return False

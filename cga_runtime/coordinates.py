@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from operator import index
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.errors import DegenerateError, NotFiniteError, WrongSizeError
+from cga_runtime.kernels import numeric
 
 Array = NDArray[np.float64]
 
@@ -16,16 +19,24 @@ ZERO = 1e-12
 def read(values: ArrayLike, what: str, *shape: int) -> Array:
     """A read-only float64 copy of shape (..., *shape). Raises WrongSizeError, NotFiniteError."""
     wanted = f"(..., {', '.join(str(k) for k in shape)})" if shape else "(...)"
-    try:
-        array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise WrongSizeError(f"{what}: numbers of shape {wanted} are needed, {values!r:.80} was given") from None
+    array = np.array(numeric(values, what))
     if array.ndim < len(shape) or array.shape[array.ndim - len(shape) :] != shape:
         raise WrongSizeError(f"{what}: shape {array.shape} given, {wanted} needed")
     if not np.isfinite(array).all():
         raise NotFiniteError(f"{what} holds NaN or infinity: {np.array2string(array.ravel()[:8], precision=4)}")
     array.flags.writeable = False
     return array
+
+
+def count(value: object, what: str, least: int = 0) -> int:
+    """An integer (of Python or numpy) not below `least`. Raises WrongSizeError."""
+    try:
+        number = index(value)  # type: ignore[arg-type]  # that it may not be one is the point
+    except TypeError:
+        raise WrongSizeError(f"{what}: {value!r} given, an integer of at least {least} needed") from None
+    if number < least:
+        raise WrongSizeError(f"{what}: {number} given, at least {least} needed")
+    return number
 
 
 def one_batch(what: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:

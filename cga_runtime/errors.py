@@ -41,6 +41,14 @@ class RobotFileError(CgaError, ValueError):
     """A robot description is unreadable, unsafe, or holds something that cannot be represented."""
 
 
+class ChainError(CgaError, ValueError):
+    """A chain cannot be cut as asked: its root does not lie before its end, or it has no joints."""
+
+
+class FolderError(CgaError, OSError):
+    """A folder for results cannot be written, or holds something else."""
+
+
 class StaleKernelError(CgaError, RuntimeError):
     """Generated text does not match its manifest, or the manifest cannot be read; the message names the file and the command."""
 

@@ -78,7 +78,8 @@ class Library:
         listing = folder / "manifest.json"
         try:
             self.manifest: dict[str, Any] = json.loads(listing.read_text(encoding="utf-8"))
-            if not isinstance(self.manifest, dict) or not {"format", "files", "units", "robots"} <= self.manifest.keys():
+            parts = [self.manifest.get(key) for key in ("files", "units", "robots")] if isinstance(self.manifest, dict) else [None]
+            if not all(isinstance(part, dict) for part in parts) or "format" not in self.manifest:
                 raise ValueError("unfinished, or a file of something else")
             if self.manifest["format"] != FORMAT:
                 raise ValueError(f"its format is {self.manifest['format']}, this version reads {FORMAT}")
@@ -108,10 +109,22 @@ class Library:
         """What was generated together under that path."""
         return Unit(self, path)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return library, (self.folder,)
+
+
+def library(folder: Path) -> Library:
+    """The library of a folder, read once and again whenever its manifest was written anew."""
+    listing = folder.resolve() / "manifest.json"
+    try:
+        status = listing.stat()
+    except OSError:
+        return Library(listing.parent)  # says what is wrong
+    return _library(listing.parent, (status.st_mtime_ns, status.st_size, status.st_ino))
+
 
 @cache
-def library(folder: Path) -> Library:
-    """The library of a folder, read once."""
+def _library(folder: Path, written: tuple[int, ...]) -> Library:
     return Library(folder)
 
 
@@ -133,6 +146,10 @@ class Unit:
         self.joint_names: tuple[str, ...] = tuple(self.record["joint_names"])
         self.joint_kinds: tuple[str, ...] = tuple(self.record["joint_kinds"])
         self._kernels: dict[str, Kernel] = {}
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # compiled code does not travel: a copy opens its folder itself
+        return Library.unit, (self.library, self.path)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -172,6 +189,9 @@ class Kernel:
         n = len(unit.joint_names)
         passed = {key: tuple(size) for key, size in self.record["inputs"] if key not in _OF_ANGLE}
         self.inputs: dict[str, tuple[int, ...]] = {**({"q": (n,)} if len(passed) < len(self.body) else {}), **passed}
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Unit.kernel, (self.unit, self.name)
 
     def __call__(self, *values: ArrayLike) -> Array:
         """Evaluates at inputs of shape (..., size). Raises WrongSizeError or NotFiniteError."""

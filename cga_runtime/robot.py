@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
@@ -17,12 +18,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime import workshop
+from cga_runtime.coordinates import count
 from cga_runtime.errors import UnknownNameError, WrongSizeError
 from cga_runtime.kernels import Kernel, Library, Unit, finite, generated_folder, library
 from cga_runtime.workshop import ChainOrder
 
 Array = NDArray[np.float64]
 
+_FRAMED = ("jacobian", "jacobian_derivative", "hessian")
 FRAMES = ("LOCAL", "WORLD", "LOCAL_WORLD_ALIGNED")
 # rows of a 6-row result, given in linear-first order (v, w): which row comes where, and its sign
 ORDERS: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
@@ -47,10 +50,16 @@ def load_robot(source: str | Path, folder: str | Path | None = None) -> Robot:
     if str(source) in known:
         record = known[str(source)]
         return Robot(home.read(record["description"]), home, record)
-    path = Path(source)
-    if path.suffix.lower() in (".urdf", ".xml") or path.exists():
-        return Robot(workshop.read_robot(path), None, None)
+    if isinstance(source, str | os.PathLike) and _names_a_file(Path(source)):
+        return Robot(workshop.read_robot(Path(source)), None, None)
     raise UnknownNameError("robot", str(source), known, "Or name a URDF file")
+
+
+def _names_a_file(path: Path) -> bool:
+    try:
+        return path.suffix.lower() in (".urdf", ".xml") or path.exists()
+    except (OSError, ValueError):  # too long for a file name, or a zero character in it
+        return False
 
 
 class Robot:
@@ -84,8 +93,10 @@ class Robot:
     ) -> Chain:
         """The chain from the base (or the frame `root`) to `frame`.
 
-        placement: 4x4 pose of the robot's base in the world. offset: a point fixed in the frame (m), which becomes the end frame's origin.
-        Kernels of chains that are not checked in are generated at first use and kept in the cache. Raises UnknownNameError, WrongSizeError.
+        placement: 4x4 pose of the robot's base (with `root`: of the root frame) in the world; chains with another placement belong to
+        another robot of the same kind. offset: a point fixed in the frame (m), which becomes the end frame's origin. Kernels of chains that
+        are not checked in are generated at first use and kept in the cache. Raises UnknownNameError, WrongSizeError, ChainError,
+        DegenerateError (a placement that is no rigid motion).
         """
         for name in (frame, root):
             if name is not None and name not in self.frame_names:
@@ -108,10 +119,19 @@ class Robot:
     def loop_unit(self, right: Chain, left: Chain) -> Unit:
         """Kernels of two chains as a closed loop; checked-in ones where both chains are plain ends of this robot."""
         name = f"{right.frame}_with_{left.frame}"
-        plain = right.plain and left.plain and right.robot is self and left.robot is self
+        plain = right.plain and left.plain and right.order.description == left.order.description == self._description
         if plain and self._home is not None and self._record is not None and name in self._record["loops"]:
             return self._home.unit(self._record["loops"][name])
         return workshop.loop_unit(right.order, left.order)
+
+
+def shared_joints(first: Chain, second: Chain) -> set[str]:
+    """Joints that two chains have in common: those of the same name, if the chains belong to one robot.
+
+    That is so if description and placement are the same, however often the robot was loaded: two robots do not stand in one place.
+    """
+    one_robot = (first.order.description, first.order.placement) == (second.order.description, second.order.placement)
+    return set(first.joint_names) & set(second.joint_names) if one_robot else set()
 
 
 class Chain:
@@ -140,8 +160,8 @@ class Chain:
         return _uniform(self.lower, self.upper, rng, size)
 
     def kernel(self, name: str) -> Kernel:
-        """A kernel by name; UnknownNameError lists them."""
-        return self.unit.kernel(name)
+        """A kernel by name; UnknownNameError lists them. `jacobian`, `jacobian_derivative` and `hessian` alone: LOCAL_WORLD_ALIGNED."""
+        return self.unit.kernel(f"{name}_local_world_aligned" if name in _FRAMED else name)
 
     def casadi(self, name: str) -> Any:
         """The kernel as a casadi.Function with exact derivatives; every kernel name works. 3-D results come as (6, n*n)."""
@@ -194,10 +214,10 @@ class Chain:
         return self.kernel("point")
 
     def _in_frame(self, kernel: str, frame: str) -> Kernel:
+        if frame not in FRAMES:
+            raise UnknownNameError("frame of reference", frame, FRAMES)
         found = self._framed.get((kernel, frame))
         if found is None:
-            if frame not in FRAMES:
-                raise UnknownNameError("frame of reference", frame, FRAMES)
             found = self._framed[kernel, frame] = self.kernel(f"{kernel}_{frame.lower()}")
         return found
 
@@ -220,7 +240,7 @@ def _bounds(values: Sequence[float | None], missing: float) -> Array:
 
 
 def _uniform(lower: Array, upper: Array, rng: np.random.Generator, size: int | tuple[int, ...] | None) -> Array:
-    shape = () if size is None else (size,) if isinstance(size, int) else size
+    shape = () if size is None else tuple(size) if isinstance(size, Sequence) else (count(size, "size"),)
     low, high = np.where(np.isfinite(lower), lower, -math.pi), np.where(np.isfinite(upper), upper, math.pi)
     return np.asarray(rng.uniform(low, high, (*shape, len(lower))))
 

@@ -16,7 +16,16 @@ from pathlib import Path
 from typing import Any
 
 from cga_runtime.cache import cache_folder, digest, locked
-from cga_runtime.errors import CacheError, CgaError, MissingExtraError, RobotFileError, StaleKernelError, UnknownNameError
+from cga_runtime.errors import (
+    CacheError,
+    ChainError,
+    DegenerateError,
+    FolderError,
+    MissingExtraError,
+    RobotFileError,
+    StaleKernelError,
+    UnknownNameError,
+)
 from cga_runtime.kernels import Library, Unit, library
 
 Say = Callable[[str], None]
@@ -89,7 +98,9 @@ def generate_folder(file: Path, out: Path, frames: Sequence[str], pairs: Sequenc
         model = load_urdf(file)
         chains = list(dict.fromkeys([*(frames or model.tips()), *(frame for pair in pairs for frame in pair)]))
         generate([(model, chains, pairs)], out, say)
-    except (ModelError, LoweringError, GeneratedFolderError) as error:
+    except GeneratedFolderError as error:
+        raise FolderError(str(error)) from error
+    except (ModelError, LoweringError) as error:
         raise RobotFileError(str(error)) from error
     record: dict[str, Any] = Library(out).manifest["robots"][model.name]
     return record
@@ -104,14 +115,14 @@ def generate_checked_in(out: Path, say: Say) -> None:
     try:
         generate(checked_in_robots(), out, say)
     except GeneratedFolderError as error:
-        raise CgaError(str(error)) from error
+        raise FolderError(str(error)) from error
 
 
-def prove(say: Say) -> None:
-    """The exact proofs of the algebra's laws, each named as it is done."""
+def prove(say: Say) -> dict[str, int]:
+    """The exact proofs of the algebra's laws, each named as it is done: law -> cases."""
     from cga_codegen.cli import prove as run
 
-    run(say)
+    return run(say)
 
 
 def _chain(order: ChainOrder) -> Any:
@@ -119,12 +130,14 @@ def _chain(order: ChainOrder) -> Any:
     from cga_codegen.robots.model import ModelError, Placement, RobotModel
 
     model = RobotModel.from_json(json.loads(order.description))
-    placement = None if order.placement is None else order.placement
     try:
-        at = None if placement is None else Placement.from_matrix(placement)
+        at = None if order.placement is None else Placement.from_matrix(order.placement)
+    except ModelError as error:
+        raise DegenerateError(str(error)) from error
+    try:
         return model.chain(order.frame, order.root, at, order.offset)
     except ModelError as error:
-        raise RobotFileError(str(error)) from error
+        raise ChainError(str(error)) from error
 
 
 def _loop(right: ChainOrder, left: ChainOrder) -> Any:
@@ -153,7 +166,7 @@ def _unit(key: dict[str, Any], subject: Callable[[], Any]) -> Unit:
                     write_folder(Path(build) / "fresh", texts, manifest_text(__version__, texts, [record], {}))
                     _install(Path(build) / "fresh", folder)
     except ModelError as error:
-        raise RobotFileError(str(error)) from error
+        raise ChainError(str(error)) from error
     except GeneratedFolderError as error:
         raise CacheError(str(error)) from error
     except OSError as error:
@@ -183,11 +196,11 @@ def _generator_digest() -> str:
 
 
 def _complete(folder: Path) -> bool:
-    """Whether a generated folder is there and all its files match."""
+    """Whether a generated folder is there, holds a unit, and all its files match."""
     try:
         found = Library(folder)
         for path in found.manifest["files"]:
             found.read(path)
     except StaleKernelError:
         return False
-    return True
+    return bool(found.manifest["units"]) and bool(found.manifest["files"])

@@ -65,6 +65,7 @@ ROOMS = {
     f"{RUN}.report": Room(up_to("report"), ("casadi", "jinja2", "markupsafe", "numpy", "plotly"), lazily=("mujoco",)),
     f"{RUN}.view": Room(up_to("view"), ("casadi", "numpy"), lazily=("mujoco", "viser")),
     f"{RUN}.cli": Room((RUN,), ("casadi", "numpy", "rich", "typer")),
+    f"{RUN}.__main__": Room((RUN,)),  # starts where nothing else is installed
 }
 
 NOT_PACKAGES = {"generated", "codegen", "scripts", "tests"}  # folders of the checkout: nobody imports them

@@ -220,7 +220,7 @@ def pip(run: ModuleType) -> SimpleNamespace:
 def test_installs_once_and_again_only_for_a_new_pyproject(run: ModuleType, pip: SimpleNamespace, tmp_path: Path) -> None:
     run.install()
     run.install()
-    assert pip.commands == [["-m", "pip", "install", "-e", ".[all]"]] and pip.made == 1
+    assert pip.commands == [["-m", "pip", "install", "-e", ".[all,dev]"]] and pip.made == 1
     (tmp_path / "pyproject.toml").write_text("second")
     run.install()
     run.install()

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.analysis.certificates import NotRationalError, RationalArm, exact_rank, mirror_signs
+from cga_runtime.coordinates import count
 from cga_runtime.spaces.closed_chain import LENGTH, ClosedLoop
 
 Array = NDArray[np.float64]
@@ -61,13 +62,14 @@ def atlas(
 ) -> list[dict[str, Any]]:
     """One row a scheme, ascending in its actuated joints (1-based).
 
-    Keys: actuated; orbit (the smaller of the scheme and its mirror image, arms exchanged); class; reason; certified (the rank, full or
-    deficient, is proved by an exact point or by structure; that a scheme is singular on all mirror poses rests on POINTS exact ones);
-    witness (half-angle tangents of an exact full-rank point, or None); mu_median, mu_p05, mu_below_001 over `samples` uniform poses with
-    free grasps.
+    Keys: actuated; orbit (the smaller of the scheme and the one with the arms exchanged, its mirror image if the arms are); class; reason;
+    certified (the rank, full or deficient, is proved by an exact point or by structure; that a scheme is singular on all mirror poses rests
+    on POINTS exact ones); witness (half-angle tangents of an exact full-rank point, or None); mu_median, mu_p05, mu_below_001 over
+    `samples` uniform poses with free grasps. Raises WrongSizeError for samples < 1 or seed < 0.
     """
+    samples = count(samples, "samples", 1)
     schemes = [tuple(j + 1 for j in scheme) for scheme in combinations(range(loop.n), loop.actuators)]
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(count(seed, "seed"))
     poses = loop.random(rng, samples)
     mu = np.empty((samples, len(schemes)))
     for start in range(0, samples, CHUNK):

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cga_runtime.coordinates import count
 from cga_runtime.errors import DegenerateError, SchemeError, UnknownNameError
 from cga_runtime.solve.ipopt import Bounds, Program
 from cga_runtime.spaces.closed_chain import LENGTH, ClosedLoop
@@ -158,7 +159,7 @@ def nearest_singularity(
     at = loop.check_one(q)
     lower, upper = (loop.lower, loop.upper) if within_limits else (at - BOX, at + BOX)
     scheme = None if actuated is None else tuple(j + 1 for j in loop.scheme(actuated)[0])
-    rng = np.random.default_rng(seed)
+    rng, starts = np.random.default_rng(count(seed, "seed")), count(starts, "starts", 1)
     found = []
     for factor in _factors(loop, kind):
         zero = np.zeros(factor.count(",") + 1)
@@ -189,7 +190,7 @@ def singularity_free_box(
     bounds = Bounds(
         np.append(at - pi, 0.0), np.append(at + pi, pi), zero, np.concatenate([[0.0], np.full(2 * loop.n, np.inf)])
     )
-    rng = np.random.default_rng(seed)
+    rng, starts, samples = np.random.default_rng(count(seed, "seed")), count(starts, "starts", 1), count(samples, "samples", 1)
 
     def singular(x: Array) -> bool:
         return abs(float(loop.determinant(x, scheme))) <= ZERO

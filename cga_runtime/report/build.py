@@ -6,7 +6,6 @@ import os
 import platform
 from collections.abc import Callable
 from importlib.metadata import PackageNotFoundError, version
-from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
 from types import ModuleType
@@ -14,7 +13,7 @@ from typing import Any
 
 from cga_runtime import __version__
 from cga_runtime.cache import write_atomic
-from cga_runtime.errors import CgaError, MissingExtraError
+from cga_runtime.errors import FolderError
 from cga_runtime.report import constraint, kernels, limb, mobility, nearest, reaching, schemes, strict_json
 from cga_runtime.report.context import Context, Sizes
 from cga_runtime.robot import load_robot
@@ -32,7 +31,7 @@ SECTIONS: tuple[tuple[str, ModuleType, int], ...] = (
 PAGE = 5
 
 
-class ReportFolderError(CgaError, OSError):
+class ReportFolderError(FolderError):
     """The folder for the report cannot be made or written."""
 
 
@@ -48,9 +47,6 @@ def build_report(
     progress(done, total) is called after each part. All numbers but times depend on robot, sizes and seed alone. A section that fails
     raises; nothing is written then. Raises ReportFolderError, ReportRobotError (not two universal-spherical arms), MissingExtraError.
     """
-    for package in ("jinja2", "plotly"):
-        if find_spec(package) is None:
-            raise MissingExtraError("the report", package, "report")
     from cga_runtime.report.page import render
 
     begin = perf_counter()

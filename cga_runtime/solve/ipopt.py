@@ -2,6 +2,11 @@
 
 min f(x, p) subject to x in [lower, upper] and g(x, p) in its bounds. Gradients, Jacobians and the Hessian of the Lagrangian are exact
 (automatic differentiation of the expressions).
+
+IPOPT refuses programs with more equations than free variables, even where the equations have a common solution. Their leading equations
+g_i = 0 can be made elastic: g_i = a_i - b_i with a, b >= 0 and rho sum(a + b) + far sum((a + b)^2) added to f. The linear part makes the
+penalty exact: a solution of the equations stays a solution where rho exceeds its multipliers. Where there is none, and the equations are
+missed by more than rho / far, the quadratic part prevails: the result is near to one with the least sum of squares.
 """
 
 from __future__ import annotations
@@ -18,6 +23,10 @@ Array = NDArray[np.float64]
 
 ITERATIONS = 200
 """Iterations that one start may take."""
+PENALTY = 1e3
+"""rho, in units of f per unit of an equation."""
+FAR = 1e4
+"""far, in units of f per squared unit of an equation."""
 OPTIONS: dict[str, Any] = {
     "ipopt.tol": 1e-9,
     "ipopt.max_iter": ITERATIONS,
@@ -34,7 +43,7 @@ OPTIONS: dict[str, Any] = {
 
 @dataclass(frozen=True)
 class Attempt:
-    """What IPOPT returned from one start; `status` is its own word, e.g. Solve_Succeeded."""
+    """What IPOPT returned from one start; `status` is its own word, e.g. Solve_Succeeded. iterations: 0 where it did not start."""
 
     x: Array
     status: str
@@ -63,27 +72,43 @@ class Bounds:
 
 
 class Program:
-    """A program over SX expressions. `solver` is the casadi.Function of nlpsol."""
+    """A program over SX expressions, of whose constraints the first `elastic` ones are equations made elastic.
 
-    def __init__(self, name: str, variables: Any, parameters: Any, objective: Any, constraints: Any) -> None:
+    `solver` is the casadi.Function of nlpsol; its variables are x, a, b.
+    """
+
+    def __init__(self, name: str, variables: Any, parameters: Any, objective: Any, constraints: Any, elastic: int = 0) -> None:
         import casadi
 
+        self._elastic = elastic
+        self._equations: Any = casadi.Function("equations", [variables, parameters], [constraints[:elastic, :]]) if elastic else None
+        if elastic:
+            above, below = casadi.SX.sym("a", elastic), casadi.SX.sym("b", elastic)
+            variables = casadi.vertcat(variables, above, below)
+            constraints = casadi.vertcat(constraints[:elastic, :] - above + below, constraints[elastic:, :])
+            objective += PENALTY * casadi.sum(above + below) + FAR * casadi.sumsqr(above + below)
         problem = {"x": variables, "p": parameters, "f": objective, "g": constraints}
         self.solver: Any = casadi.nlpsol(name, "ipopt", problem, OPTIONS)
 
     def solve(self, start: Array, parameters: Array, bounds: Bounds) -> Attempt:
         """One run from `start`; the result lies inside the bounds of the variables."""
+        first = start
+        if self._elastic:
+            error = np.asarray(self._equations(start, parameters), dtype=np.float64).ravel()
+            first = np.concatenate([start, np.maximum(error, 0.0), np.maximum(-error, 0.0)])
         found = self.solver(
-            x0=start,
+            x0=first,
             p=parameters,
-            lbx=bounds.lower,
-            ubx=bounds.upper,
+            lbx=np.concatenate([bounds.lower, np.zeros(2 * self._elastic)]),
+            ubx=np.concatenate([bounds.upper, np.full(2 * self._elastic, np.inf)]),
             lbg=bounds.constraints_lower,
             ubg=bounds.constraints_upper,
         )
         stats = self.solver.stats()
-        x = np.clip(np.asarray(found["x"], dtype=np.float64).ravel(), bounds.lower, bounds.upper)
-        return Attempt(x, str(stats["return_status"]), int(stats["iter_count"]))
+        # CasADi leaves the count unset where IPOPT gives up before its first iteration; the record of iterations is then empty
+        iterations = int(stats["iter_count"]) if stats.get("iterations", {}).get("obj") else 0
+        x = np.asarray(found["x"], dtype=np.float64).ravel()[: len(start)]
+        return Attempt(np.clip(x, bounds.lower, bounds.upper), str(stats["return_status"]), iterations)
 
     def solve_from(self, starts: Iterable[Array], parameters: Array, bounds: Bounds, violation: Callable[[Array], float]) -> Best:
         """Runs from start after start until the violation of a result, measured by the caller, is at most 1; keeps the best.

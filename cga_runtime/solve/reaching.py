@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cga_runtime.coordinates import Array, read
+from cga_runtime.coordinates import Array, count, read
 from cga_runtime.elements import Line, Motor, Point, PointPair
 from cga_runtime.errors import GraspError, UnknownNameError, WrongSizeError
-from cga_runtime.robot import Chain
-from cga_runtime.solve.reaching_grasp import hold
+from cga_runtime.robot import Chain, shared_joints
+from cga_runtime.solve.reaching_grasp import Check, hold, number
 from cga_runtime.solve.reaching_problem import Form, bounds, parameters, program
 from cga_runtime.solve.reaching_targets import KINDS, Target, distance, duals
 from cga_runtime.spaces.closed_chain import ClosedLoop
@@ -30,7 +30,9 @@ class Solution:
     """Joint positions that reach a target, or the best attempt.
 
     q: (n,), always inside the limits. success: target reached within the tolerance, grasp closed, margins kept, all measured anew.
-    residual: largest distance (m) of a moved point from its target. iterations, starts, seconds (wall time): of all starts together;
+    status: "reached", or each of target, closure and margins that q misses, and IPOPT's word for its run; where it was given elastic
+    equations (see reaching_problem.py) it also succeeds at a point that misses them. residual: largest distance (m) of a moved point
+    from its target. iterations, starts, seconds (wall time): of all starts together;
     iterations_last: of the start that gave q.
     """
 
@@ -78,9 +80,8 @@ def reach(
     """
     chains, loop = _subject(what)
     targets = _targets(target, len(chains), loop is not None)
-    if starts < 1:
-        raise WrongSizeError(f"starts: {starts} given, at least 1 is needed")
-    if not read(tolerance, "tolerance") > 0.0:
+    starts, seed, tolerance = count(starts, "starts", 1), count(seed, "seed"), number(tolerance, "tolerance")
+    if tolerance <= 0.0:
         raise WrongSizeError(f"tolerance: {tolerance} given, a positive length (m) is needed")
     lower, upper = (np.concatenate([getattr(chain, side) for chain in chains]) for side in ("lower", "upper"))
     position = middle(lower, upper) if q0 is None else _position(q0, chains)
@@ -89,14 +90,19 @@ def reach(
         held = hold(loop, position, grasp, object_point, limb_margin, scheme_margin, conditioning_weight)
     else:
         _refuse(grasp=grasp, object_point=object_point, limb_margin=limb_margin, scheme_margin=scheme_margin)
-        _refuse(conditioning_weight=conditioning_weight or None)
+        _refuse(conditioning_weight=number(conditioning_weight, "conditioning_weight") or None)
 
     def residual(q: Array) -> float:
         points = _end_points(chains, q) if held is None else held.points(q)
         return max(float(distance(goal, point)) for goal, point in zip(targets, points, strict=True))
 
+    def checks(q: Array) -> list[Check]:
+        miss = residual(q)
+        target_check = Check(miss / tolerance, f"closest result {miss:.2g} m away")
+        return [target_check, *([] if held is None else held.checks(q))]
+
     def violation(q: Array) -> float:
-        return max(residual(q) / tolerance, 0.0 if held is None else held.violation(q))
+        return max(check.violation for check in checks(q))
 
     planes = [duals(goal) for goal in targets]
     form = Form.of(chains, tuple(len(s) for s in planes), held)
@@ -108,7 +114,8 @@ def reach(
     if success:
         status = f"reached (IPOPT: {best.attempt.status})"
     else:
-        status = f"unreachable or not found in {best.starts} starts: closest result {miss:.2g} m away (IPOPT: {best.attempt.status})"
+        missed = "; ".join(check.missed for check in checks(q) if not check.violation <= 1.0)
+        status = f"unreachable or not found in {best.starts} starts: {missed} (IPOPT: {best.attempt.status})"
     return Solution(q, success, status, best.iterations, miss, best.seconds, best.starts, best.attempt.iterations)
 
 
@@ -121,7 +128,7 @@ def _subject(what: Any) -> tuple[tuple[Chain, ...], ClosedLoop | None]:
     if not (isinstance(what, Sequence) and len(what) == 2 and all(isinstance(chain, Chain) for chain in what)):
         raise UnknownNameError("subject", type(what).__name__, ("a Chain", "a sequence of two Chains", "a ClosedChain"))
     first, second = what
-    shared = set(first.joint_names) & set(second.joint_names) if first.robot is second.robot else set()
+    shared = shared_joints(first, second)
     if shared:
         raise GraspError(f"the two chains share joints ({', '.join(sorted(shared))}): they cannot reach independently")
     return (first, second), None

@@ -7,6 +7,9 @@ min |q - q_ref|^2 / 2 (- w log det(S S^T), S the screws of a closed chain) subje
     sigma_i f_i(q) sin q4_i / l >= m   limb margin of arm i, sigma_i its sign at q0
     D_a(q) / D_a(q0) >= fraction       scheme margin: the determinant of the passive joints' screws (paper C, section 5)
 
+Where an arm, or a closed chain, has no more joints than equations these are made elastic (see ipopt.py): in general they have isolated
+solutions or none, and IPOPT refuses programs with more equations than joints.
+
 Targets, grasp, margins and q_ref are parameters or bounds, so that one program serves all problems of its kind.
 """
 
@@ -26,11 +29,13 @@ from cga_runtime.solve.reaching_grasp import Held
 from cga_runtime.spaces.closed_chain import LENGTH, ClosedLoop
 
 CLOSURE_SCALE = 10.0
+CLOSURE_ROWS = 6
 
 
 @dataclass(frozen=True)
 class Form:
-    """What tells one program from another: kernels, number of planes and spheres for each moved point, options that add expressions.
+    """What tells one program from another: kernels, number of planes and spheres for each moved point, options that add expressions, and
+    whether the equations are elastic.
 
     `chains` and `loop` give the kernels; forms with the same kernels are equal.
     """
@@ -40,6 +45,7 @@ class Form:
     limb: bool
     scheme: tuple[int, ...] | None
     conditioned: bool
+    elastic: bool
     chains: tuple[Chain, ...] = field(compare=False)
     loop: ClosedLoop | None = field(compare=False)
 
@@ -47,15 +53,22 @@ class Form:
     def of(cls, chains: tuple[Chain, ...], rows: tuple[int, ...], held: Held | None) -> Form:
         """The form of a problem; `chains` are the arms, of a closed chain both."""
         units = tuple(chain.unit for chain in chains)
+        free = [int((chain.lower < chain.upper).sum()) for chain in chains]  # IPOPT takes a joint that its limits fix out of the program
         if held is None:
-            return cls(units, rows, False, None, False, chains, None)
-        options = (held.limb_margin is not None, held.scheme, held.conditioning_weight != 0.0)
+            elastic = any(joints <= k for joints, k in zip(free, rows, strict=True))
+            return cls(units, rows, False, None, False, elastic, chains, None)
+        options = (held.limb_margin is not None, held.scheme, held.conditioning_weight != 0.0, sum(free) <= sum(rows) + CLOSURE_ROWS)
         return cls((*units, held.loop.unit), rows, *options, chains, held.loop)
 
     @property
     def n(self) -> int:
         """Number of joints."""
         return sum(chain.n for chain in self.chains)
+
+    @property
+    def equations(self) -> int:
+        """Number of equations, which come before the margins."""
+        return sum(self.rows) + (0 if self.loop is None else CLOSURE_ROWS)
 
 
 def parameters(duals: Array, reference: Array, held: Held | None) -> Array:
@@ -68,14 +81,13 @@ def parameters(duals: Array, reference: Array, held: Held | None) -> Array:
 
 def bounds(form: Form, held: Held | None, lower: Array, upper: Array) -> Bounds:
     """Joint limits; zero for the equations; the margins, in the program's order."""
-    equations = sum(form.rows) + (6 if held is not None else 0)
     margins: list[float] = []
     if held is not None and held.limb_margin is not None:
         margins += [held.limb_margin, held.limb_margin]
     if held is not None and held.scheme is not None:
         margins.append(held.scheme_fraction)
-    least = np.array([0.0] * equations + margins)
-    return Bounds(lower, upper, least, np.where(np.arange(len(least)) < equations, 0.0, np.inf))
+    least = np.array([0.0] * form.equations + margins)
+    return Bounds(lower, upper, least, np.where(np.arange(len(least)) < form.equations, 0.0, np.inf))
 
 
 @lru_cache(maxsize=64)
@@ -107,7 +119,7 @@ def program(form: Form) -> Program:
             screws = form.loop.kernel("screws").symbolic(q)
             pivots = casadi.ldl(screws @ screws.T)[0]
             objective -= weight * casadi.sum(casadi.log(casadi.vec(pivots)))
-    return Program("reach", q, casadi.vertcat(*given), objective, casadi.vertcat(*constraints))
+    return Program("reach", q, casadi.vertcat(*given), objective, casadi.vertcat(*constraints), form.equations if form.elastic else 0)
 
 
 def _incidence(points: list[Any], duals: Any, rows: tuple[int, ...]) -> Any:

@@ -13,11 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cga_runtime.coordinates import Array
+from cga_runtime.coordinates import Array, count
 from cga_runtime.elements import Line, Plane, Point, PointPair, Sphere
 from cga_runtime.solve.reaching import STARTS, Solution, middle, reach
 from cga_runtime.solve.reaching_grasp import Held, hold
-from cga_runtime.spaces.closed_chain import CLOSED, ClosedLoop
+from cga_runtime.spaces.closed_chain import ClosedLoop
+from cga_runtime.spaces.loop_walk import walk
 
 Problem = tuple[Any, Any, Array, dict[str, Any]]
 """What is moved, the target, where the search begins, and further options of `reach`."""
@@ -31,9 +32,8 @@ SCHEME = (1, 3, 7, 8)
 LIMB_MARGIN = 0.35
 SCHEME_FRACTION = 0.5
 SPHERE_RADII = (0.03, 0.15)
-STEP = 0.2
-"""Length of a step on the grasp manifold (rad); WALK steps lead from one target to the next."""
 WALK = 20
+"""Steps on the grasp manifold from one target to the next."""
 
 
 def run_tasks(
@@ -56,6 +56,7 @@ def run_tasks(
     Values: tried, solved, solved_first_start, and of the solved problems iterations_median, iterations_max (of all starts together),
     seconds_median; None where none was solved. Raises what `reach` raises for closed_q0, scheme and margins.
     """
+    tries, seed = count(tries, "tries"), count(seed, "seed")
     closed = _closed(loop) if closed_q0 is None else loop.check(closed_q0)
     results: dict[str, dict[str, Any]] = {}
     for index, (name, make) in enumerate({**_free_tasks(loop), **_held_tasks(loop, closed, scheme, limb_margin, scheme_fraction)}.items()):
@@ -118,24 +119,11 @@ def _held_tasks(loop: ClosedLoop, closed: Array, scheme: Sequence[int], limb_mar
 
 
 def closed_configurations(held: Held, q: Array, rng: np.random.Generator) -> Iterator[Array]:
-    """A random walk from q over the configurations that hold the grasp within limits and margins; every WALK steps one is given.
-
-    A step along the tangent space is brought back by Newton's method; one that leaves limits or margins is not taken.
-    """
-    loop = held.loop
+    """Configurations that hold the grasp within limits and margins, each the last such one of a random walk of WALK steps from the one
+    before, the first from q, which holds it. The margins may be crossed on the way."""
     while True:
-        for _ in range(WALK):
-            _, _, rows = np.linalg.svd(loop.kernel("closure_jacobian")(q, held.grasp))
-            free = rows[6:].T
-            xi = free @ rng.normal(size=free.shape[1])
-            new = q + STEP * xi / np.linalg.norm(xi)
-            for _ in range(6):
-                error = loop.closure_error(new, held.grasp)
-                if np.abs(error).max() <= 1e-3 * CLOSED:
-                    break
-                new = new - np.linalg.pinv(loop.kernel("closure_jacobian")(new, held.grasp)) @ error
-            if ((loop.lower <= new) & (new <= loop.upper)).all() and held.violation(new) <= 1.0:
-                q = new
+        visited = walk(held.loop, q, WALK, rng).q
+        q = next((at for at in visited[::-1] if held.violation(at) <= 1.0), q)
         yield q
 
 

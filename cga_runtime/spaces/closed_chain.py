@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cga_runtime.coordinates import count
 from cga_runtime.errors import GraspError, SchemeError, WrongSizeError
 from cga_runtime.kernels import Kernel, finite, generated_folder, library, products
-from cga_runtime.motors import REVERSE
-from cga_runtime.robot import Chain
+from cga_runtime.motors import REVERSE, Motor
+from cga_runtime.robot import Chain, shared_joints
 
 Array = NDArray[np.float64]
 
@@ -33,7 +34,13 @@ class ClosedLoop:
     """
 
     def __init__(self, right: Chain, left: Chain) -> None:
-        shared = set(right.joint_names) & set(left.joint_names) if right.robot is left.robot else set()
+        for chain in (right, left):
+            if not isinstance(chain, Chain):
+                raise GraspError(f"a closed chain needs two Chains, {type(chain).__name__} given")
+        if right.order.root != left.order.root:
+            roots = " and ".join(repr(chain.order.root or "the base") for chain in (right, left))
+            raise GraspError(f"the two chains begin in different frames ({roots}): a closed chain needs a common root")
+        shared = shared_joints(right, left)
         if shared:
             raise GraspError(f"the two arms share joints ({', '.join(sorted(shared))}): a closed chain needs separate arms")
         if right.n + left.n <= 6:
@@ -72,7 +79,7 @@ class ClosedLoop:
 
     def random(self, rng: np.random.Generator, size: int | tuple[int, ...] | None = None) -> Array:
         """Uniform joint positions inside the limits, shape (size..., n): free grasps (each pose defines its own grasp)."""
-        shape = () if size is None else (size,) if isinstance(size, int) else size
+        shape = () if size is None else tuple(size) if isinstance(size, Sequence) else (count(size, "size"),)
         return np.concatenate([self.right.random(rng, shape), self.left.random(rng, shape)], axis=-1)
 
     def check(self, q: ArrayLike) -> Array:
@@ -106,8 +113,10 @@ class ClosedLoop:
         return np.stack(product, axis=-1)
 
     def closure_error(self, q: ArrayLike, grasp: ArrayLike) -> Array:
-        """Bivector coefficients (..., 6) of M_R X ~M_L; zero exactly when the arms hold the grasp X."""
-        return self.kernel("closure_error")(q, grasp)
+        """Bivector coefficients (..., 6) of M_R X ~M_L; zero exactly when the arms hold the grasp X. DegenerateError if X is no motor."""
+        error = self.kernel("closure_error")(q, grasp)
+        Motor(np.asarray(grasp))  # what is no motor can have no error and hold nothing
+        return error
 
     def require_closed(self, q: ArrayLike, grasp: ArrayLike) -> Array:
         """q, or GraspError where the arms do not hold the grasp within CLOSED."""

@@ -165,7 +165,7 @@ def chain_unit(chain: Chain) -> tuple[dict[str, str], UnitRecord]:
 
 
 def loop_unit(loop: Loop) -> tuple[dict[str, str], UnitRecord]:
-    """All kernels of two arms that hold one object, under robots/<robot>/<right>_<left>."""
+    """All kernels of two arms that hold one object, under robots/<robot>/<right>_with_<left>."""
     robot, name = identifier(loop.right.robot), identifier(loop.name)
     return unit(f"robots/{robot}/{name}", f"Closed chain {name} of {robot}", loop, LOOP_KERNELS)
 

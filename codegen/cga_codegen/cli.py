@@ -14,12 +14,12 @@ from cga_codegen.generate import Progress, checked_in_robots, generate
 from cga_codegen.robots.model import ModelError
 
 
-def prove(say: Progress) -> None:
-    """Runs the exact proofs of the algebra's laws, naming each; raises AlgebraError with a counterexample."""
+def prove(say: Progress) -> dict[str, int]:
+    """Runs the exact proofs of the algebra's laws, naming each as it is done: law -> cases. Raises AlgebraError with a counterexample."""
     from cga_codegen.algebra import proofs
 
-    for result in proofs.prove():
-        say(f"proved: {result.name} ({result.cases} cases)")
+    results = proofs.prove(lambda result: say(f"proved: {result.name} ({result.cases} cases)"))
+    return {result.name: result.cases for result in results}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from cga_runtime.analysis.closed_chain import ClosedChain
-from cga_runtime.analysis.sweep import walk
 from cga_runtime.robot import load_robot
+from cga_runtime.spaces.loop_walk import walk
 
 DATA = Path(__file__).parents[1] / "data"
 ORACLE = json.loads((DATA / "nao.json").read_text())

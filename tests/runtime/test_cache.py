@@ -10,7 +10,7 @@ import numpy as np
 import platformdirs
 import pytest
 
-from cga_runtime import CacheError, KernelWarning, RobotFileError, cache, workshop
+from cga_runtime import CacheError, ChainError, KernelWarning, cache, workshop
 from cga_runtime.cache import cache_folder
 from cga_runtime.compile import compile_library
 
@@ -47,6 +47,15 @@ def test_a_cache_that_others_may_write_is_refused(root, mode, nao):
         assert str(refusal.value) == f"{root} may be written by others; run `chmod 700 {root}` or set XDG_CACHE_HOME"
     root.chmod(0o755)  # to be read by others does no harm
     assert compile_library("test", SOURCE).answer() == 42
+
+
+@pytest.mark.parametrize("mode", [0o770, 0o703])
+def test_a_part_that_others_may_write_is_refused(root, mode):
+    part = cache_folder("libraries")
+    part.chmod(mode)
+    with pytest.raises(CacheError) as refusal:
+        compile_library("test", SOURCE)
+    assert str(refusal.value) == f"{part} may be written by others; run `chmod 700 {part}` or set XDG_CACHE_HOME"
 
 
 def test_a_cache_of_another_user_is_refused(root, monkeypatch):
@@ -178,6 +187,6 @@ def test_text_that_cannot_be_written_is_a_sentence(root, nao, monkeypatch):
 
 
 def test_nothing_is_generated_for_a_chain_that_does_not_exist(root, nao):
-    with pytest.raises(RobotFileError):
+    with pytest.raises(ChainError):
         nao.chain("torso")
     assert generated(root) == []

@@ -77,6 +77,11 @@ def test_generate(ask, command, tmp_path):
     assert "Kinematics of the chain left_tip of skew: 14 kernels, " in err
 
 
+def test_proofs_are_listed(ask):
+    status, found = ask("generate", "--prove")
+    assert status == 0 and found["proved"]["associativity"] >= 3 * 32_768 and len(found["proved"]) >= 13
+
+
 def test_generate_without_a_file_writes_what_the_package_carries(ask, tmp_path):
     status, found = ask("generate", "-o", tmp_path)
     assert status == 0 and "robots/nao/RHand_with_LHand" in found["units"]
@@ -148,7 +153,7 @@ MISTAKES = [
     ("mobility --frames RHand", "WrongSizeError: --frames: 'RHand' given, two frame names separated by a comma needed"),
     ("mobility --frames RHand,Hand", "UnknownNameError: unknown frame 'Hand'; known: universe, torso, "),
     ("mobility --frames RHand,RElbow", "GraspError: the two arms share joints (RElbowYaw, RShoulderPitch, RShoulderRoll)"),
-    ("mobility --frames RHand,torso", "RobotFileError: nao: no joint lies between the root and 'torso'; name a frame that moves"),
+    ("mobility --frames RHand,torso", "ChainError: nao: no joint lies between the root and 'torso'; name a frame that moves"),
     ("singularities --kind none", "UnknownNameError: unknown kind of singularity 'none'; known: limb, constraint, actuation"),
     ("singularities --kind actuation", "SchemeError: kind 'actuation' needs actuated joints"),
     ("singularities --kind actuation --scheme 1,2,3", "SchemeError: scheme (1, 2, 3): 4 distinct joint numbers from 1 to 10 are needed"),
@@ -165,9 +170,9 @@ MISTAKES = [
     ("reach 0,0,0 --q 1", "WrongSizeError: q0: shape (1,) given, (5,) needed"),
     ("generate", "WrongSizeError: generate: say where to write with -o DIR"),
     ("generate URDF", "WrongSizeError: generate: say where to write with -o DIR"),
-    ("generate -o FOLDER/file", "CgaError: cannot write FOLDER/file: File exists"),
-    ("generate -o FOLDER", "CgaError: FOLDER is not empty and holds no manifest.json: name an empty folder, or one that cga made"),
-    ("generate URDF -o FOLDER/file", "RobotFileError: cannot write FOLDER/file: File exists"),
+    ("generate -o FOLDER/file", "FolderError: cannot write FOLDER/file: File exists"),
+    ("generate -o FOLDER", "FolderError: FOLDER is not empty and holds no manifest.json: name an empty folder, or one that cga made"),
+    ("generate URDF -o FOLDER/file", "FolderError: cannot write FOLDER/file: File exists"),
     ("generate FOLDER/broken.urdf -o FOLDER/new", "RobotFileError: broken.urdf: not well-formed XML"),
     ("generate URDF -o FOLDER/new --frame hand", "RobotFileError: skew has no frame 'hand'; frames: universe, base, "),
     ("generate URDF -o FOLDER/new --frame base", "RobotFileError: skew: no joint lies between the root and 'base'"),

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from cga_runtime.analysis.closed_chain import ClosedChain
-from cga_runtime.errors import GraspError, NotFiniteError, SchemeError, UnknownNameError, WrongSizeError
+from cga_runtime.errors import DegenerateError, GraspError, NotFiniteError, SchemeError, UnknownNameError, WrongSizeError
 from cga_runtime.robot import load_robot
+from cga_runtime.spaces.loop_walk import close_loop
 
 ROBOT = load_robot("nao")
 LOOP = ClosedChain(ROBOT.chain("RHand"), ROBOT.chain("LHand"))
@@ -17,8 +18,49 @@ def test_arms_that_cannot_form_a_loop():
         ClosedChain(hand, ROBOT.chain("RForeArm"))
     with pytest.raises(GraspError, match=r"^2 \+ 4 joints hold an object rigidly: a closed chain needs more than six$"):
         ClosedChain(ROBOT.chain("RBicep"), ROBOT.chain("LForeArm"))
-    other = load_robot("nao")
-    assert ClosedChain(hand, other.chain("RHand")).n == 10  # joints of the same name on two robots are not shared
+    with pytest.raises(GraspError, match="share joints"):
+        ClosedChain(hand, load_robot("nao").chain("RHand"))  # loaded twice, it is still one robot
+    aside = np.eye(4)
+    aside[1, 3] = 0.5
+    assert ClosedChain(hand, ROBOT.chain("RHand", placement=aside)).n == 10  # another robot of the kind, standing elsewhere
+    with pytest.raises(GraspError, match="^the two chains begin in different frames \\('RShoulder' and 'the base'\\): a closed chain"):
+        ClosedChain(ROBOT.chain("RHand", root="RShoulder"), ROBOT.chain("LHand"))
+    with pytest.raises(GraspError, match="^a closed chain needs two Chains, str given$"):
+        ClosedChain(hand, "LHand")
+
+
+def test_a_robot_loaded_twice_has_the_checked_in_loop():
+    loop = ClosedChain(ROBOT.chain("RHand"), load_robot("nao").chain("LHand"))
+    assert loop == ClosedChain(ROBOT.chain("RHand"), ROBOT.chain("LHand"))
+
+
+@pytest.mark.parametrize("grasp", [np.zeros(8), 1e-12 * np.eye(8)[0], 2.0 * np.eye(8)[0]])
+def test_a_grasp_that_is_no_motor_holds_nothing(grasp):
+    q = LOOP.random(np.random.default_rng(0))
+    for call in (LOOP.closure_error, LOOP.require_closed, lambda q, grasp: close_loop(LOOP, q, grasp)):
+        with pytest.raises(DegenerateError, match="M ~M must be 1"):
+            call(q, grasp)
+
+
+@pytest.mark.parametrize("options", [{"samples": 0}, {"samples": -1}, {"samples": 2.5}, {"seed": -1}, {"seed": "a"}])
+def test_counts_of_samples_are_checked(options):
+    with pytest.raises(WrongSizeError, match=next(iter(options))):
+        LOOP.schemes(**options)
+    with pytest.raises(WrongSizeError, match=next(iter(options))):
+        LOOP.singularity_free_box(np.full(10, 0.1), (1, 3, 7, 8), **options)
+
+
+def test_starts_of_a_search_are_checked():
+    for starts in (0, -1, 1.5):
+        with pytest.raises(WrongSizeError, match="starts"):
+            LOOP.nearest_singularity(np.full(10, 0.1), starts=starts)
+
+
+def test_sizes_may_be_numpy_integers():
+    rng = np.random.default_rng(0)
+    assert LOOP.random(rng, np.int64(3)).shape == (3, 10) and ROBOT.random(rng, np.int64(2)).shape == (2, 10)
+    with pytest.raises(WrongSizeError, match="size"):
+        ROBOT.random(rng, -1)
 
 
 def test_bad_configurations():

@@ -1,6 +1,7 @@
 """Compiling at first use: which compiler is chosen, what its failures say, and that only whole, sealed libraries are ever loaded."""
 
 import ctypes
+import hashlib
 import os
 import shlex
 import sys
@@ -184,6 +185,26 @@ def test_a_damaged_library_is_made_again(cache, compiler, tmp_path, damage):
     assert ctypes.CDLL(str(library)).answer() == 42 and compile._intact(library)
 
 
+@pytest.mark.parametrize("content", [b"", b"garbage"])
+def test_a_sealed_library_of_another_system_is_made_again(cache, content):
+    """Library and seal agree, but it does not load here: after a change of the C library, say, which the name does not show."""
+    assert answer() == 42
+    (library,) = libraries(cache)
+    for file, text in ((library, content), (library.with_suffix(".sha256"), hashlib.sha256(content).hexdigest().encode())):
+        file.unlink()  # the library this process has open stays as it is
+        file.write_bytes(text)
+    assert answer() == 42 and compile._intact(library)
+
+
+def test_a_library_of_another_user_is_made_again(cache, monkeypatch):
+    assert answer() == 42
+    (library,) = libraries(cache)
+    assert compile._intact(library)
+    owner = library.stat().st_uid
+    monkeypatch.setattr(os, "getuid", lambda: owner + 1)
+    assert not compile._intact(library)
+
+
 def test_a_run_killed_between_library_and_seal(cache, monkeypatch):
     class Killed(BaseException):
         pass
@@ -215,6 +236,9 @@ def test_without_a_compiler_there_is_one_warning(cache, monkeypatch):
         warnings.simplefilter("error")
         assert compile_library("test", SOURCE) is None
     assert not cache.exists()
+    for off in ("", "0"):
+        monkeypatch.setenv("CGA_NO_COMPILER", off)
+        assert answer() == 42
 
 
 def test_compilers_are_searched_in_order(tmp_path, monkeypatch, new_search):

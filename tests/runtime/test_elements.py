@@ -163,7 +163,7 @@ REFUSED = [
     (lambda: Sphere.from_center_radius((0, 0, 0), -2.0), cga.DegenerateError, "sphere: radius -2 given"),
     (lambda: Circle(np.zeros(3), np.array([0, 0, 1.0]), -1.0), cga.DegenerateError, "circle: radius -1 given"),
     (lambda: Point((1, 2)), cga.WrongSizeError, r"point: shape \(2,\) given, \(..., 3\) needed"),
-    (lambda: Point("here"), cga.WrongSizeError, "point: numbers of shape"),
+    (lambda: Point("here"), cga.WrongSizeError, "point: not an array of numbers"),
     (lambda: Point((1, 2, np.nan)), cga.NotFiniteError, "point holds NaN or infinity"),
     (lambda: Plane.from_normal_offset((0, 0, 1), np.inf), cga.NotFiniteError, "offset of a plane holds NaN or infinity"),
     (lambda: Line.from_points(np.zeros((2, 3)), np.ones((5, 3))), cga.WrongSizeError, r"batch dimensions \(2,\), \(5,\) do not broadcast"),

@@ -215,11 +215,15 @@ def test_a_conditioning_weight_improves_the_conditioning(loop, rng):
         screws = np.hstack([RIGHT(q[:5])[1], LEFT(q[5:])[1]])
         return np.linalg.det(screws @ screws.T)
 
-    for q in others(loop, rng, 3):
+    gains = []
+    for q in others(loop, rng, 8):
         solutions = [reach(loop, Point(hands(q)[0]), CLOSED, conditioning_weight=weight) for weight in (0.0, 0.5, 5.0)]
         assert all(found.success for found in solutions)
         small, medium, large = (volume(found.q) for found in solutions)
-        assert small < medium < large and large > 1.02 * small
+        # equal to rounding where limits leave the one free direction no room
+        assert small < medium * (1 + 1e-9) and medium < large * (1 + 1e-9)
+        gains.append(large / small)
+    assert sum(gain > 1.1 for gain in gains) >= 3
 
 
 # ---- derivatives

@@ -98,9 +98,22 @@ REFUSED = [
     ("arm", HERE, {"q0": (0, 0)}, cga.WrongSizeError, "q0: shape (2,) given, (5,) needed: RShoulderPitch, RShoulderRoll"),
     ("arm", HERE, {"q0": np.zeros((2, 5))}, cga.WrongSizeError, "q0: shape (2, 5) given"),
     ("arm", HERE, {"q0": (0, 0, 0, np.nan, 0)}, cga.NotFiniteError, "q0 holds NaN or infinity"),
-    ("arm", HERE, {"q0": "zero"}, cga.WrongSizeError, "q0: numbers of shape"),
+    ("arm", HERE, {"q0": "zero"}, cga.WrongSizeError, "q0: not an array of numbers"),
     ("loop", HERE, {"q0": np.zeros(5)}, cga.WrongSizeError, "q0: shape (5,) given, (10,) needed: RShoulderPitch"),
-    ("arm", HERE, {"starts": 0}, cga.WrongSizeError, "starts: 0 given, at least 1 is needed"),
+    ("arm", HERE, {"starts": 0}, cga.WrongSizeError, "starts: 0 given, at least 1 needed"),
+    ("arm", HERE, {"starts": "3"}, cga.WrongSizeError, "starts: '3' given, an integer of at least 1 needed"),
+    ("arm", HERE, {"starts": 2.5}, cga.WrongSizeError, "starts: 2.5 given, an integer of at least 1 needed"),
+    ("arm", HERE, {"seed": -1}, cga.WrongSizeError, "seed: -1 given, at least 0 needed"),
+    ("arm", HERE, {"seed": 1.5}, cga.WrongSizeError, "seed: 1.5 given, an integer of at least 0 needed"),
+    ("arm", HERE, {"tolerance": [1e-6, 1e-6]}, cga.WrongSizeError, "tolerance: [1e-06, 1e-06] given, a single number is needed"),
+    ("arm", HERE, {"tolerance": "1e-6"}, cga.WrongSizeError, "tolerance: not an array of numbers"),
+    ("arm", HERE, {"conditioning_weight": [1, 2]}, cga.WrongSizeError, "conditioning_weight: [1, 2] given, a single number is needed"),
+    ("loop", HERE, {"conditioning_weight": [1, 2]}, cga.WrongSizeError, "conditioning_weight: [1, 2] given, a single number is needed"),
+    ("loop", HERE, {"limb_margin": [0.1, 0.2]}, cga.WrongSizeError, "limb_margin: [0.1, 0.2] given, a single number is needed"),
+    ("loop", HERE, {"limb_margin": "0.1"}, cga.WrongSizeError, "limb_margin: not an array of numbers"),
+    ("loop", HERE, {"scheme_margin": ((1, 3, 7, 8), [0.1])}, cga.WrongSizeError,
+     "fraction of scheme_margin: [0.1] given, a single number is needed"),
+    ("loop", HERE, {"scheme_margin": (1, 0.5)}, cga.SchemeError, "scheme 1: 4 joint numbers are needed"),
     ("arm", HERE, {"tolerance": 0.0}, cga.WrongSizeError, "tolerance: 0.0 given, a positive length (m) is needed"),
     ("arm", HERE, {"tolerance": np.inf}, cga.NotFiniteError, "tolerance holds NaN or infinity"),
     ("arm", PAIR, {}, cga.UnknownNameError, "unknown target of a Chain 'PointPair'; known: Point, Line, Circle, Plane, Sphere"),
@@ -136,6 +149,16 @@ def test_refusals_say_what_is_wrong(subject, target, options, error, message, ar
     what = {"arm": arm, "loop": loop, "arms": arms, "name": "RHand", "one": [arm], "twice": [arm, arm]}[subject]
     with pytest.raises(error, match=re.escape(message)):
         reach(what, target, **options)
+
+
+def test_numbers_of_numpy_are_accepted(loop):
+    target, scheme = Point(loop.right.point(CLOSED[:5]) + 0.005), (1, 3, 7, 8)
+    options = {"starts": 2, "seed": 3, "tolerance": 1e-6, "limb_margin": 0.3, "conditioning_weight": 0.1, "scheme_margin": (scheme, 0.5)}
+    numpy = {"starts": np.int64(2), "seed": np.uint8(3), "tolerance": np.float64(1e-6), "limb_margin": np.array(0.3)}
+    numpy |= {"conditioning_weight": np.float64(0.1), "scheme_margin": (np.array(scheme), np.float64(0.5))}
+    first, again = (reach(loop, target, CLOSED, **given) for given in (options, numpy))
+    assert first.success and again.success
+    np.testing.assert_array_equal(first.q, again.q)
 
 
 def test_arms_that_share_a_joint_are_refused(skew):

@@ -18,8 +18,8 @@ from cga_runtime.analysis.schemes import (
     conditioning,
     summary,
 )
-from cga_runtime.analysis.sweep import walk
 from cga_runtime.robot import load_robot
+from cga_runtime.spaces.loop_walk import walk
 
 ORACLE = json.loads((Path(__file__).parents[1] / "data" / "nao.json").read_text())
 ALL = list(combinations(range(1, 11), 4))

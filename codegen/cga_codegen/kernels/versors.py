@@ -66,18 +66,6 @@ def _chain_motor(chain: Chain, ch: Vector, sh: Vector) -> Multivector:
     return (motor if chain.n else motor.scaled(factor)).project(MOTOR)
 
 
-def pack(rotor: Sequence[Scalar], t: Vector) -> list[Scalar]:
-    """Motor components of T(t) R from R = a + b12 e12 + b13 e13 + b23 e23 (paper A's (18) without dilation)."""
-    a, b12, b13, b23 = rotor
-    return [
-        *(a, b12, b13, b23),
-        -0.5 * (a * t[0] - b12 * t[1] - b13 * t[2]),
-        -0.5 * (a * t[1] + b12 * t[0] - b23 * t[2]),
-        -0.5 * (a * t[2] + b13 * t[0] + b23 * t[1]),
-        -0.5 * (b12 * t[2] - b13 * t[1] + b23 * t[0]),
-    ]
-
-
 def motor(chain: Chain, ch: Vector, sh: Vector) -> list[Scalar]:
     """Motor of the end frame in the root frame, components 1 e12 e13 e23 e1i e2i e3i e123i, unit norm."""
     return list(_chain_motor(chain, ch, sh).coefficients)

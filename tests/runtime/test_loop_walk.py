@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from cga_runtime.analysis.closed_chain import ClosedChain
-from cga_runtime.analysis.sweep import CLOSED, close_loop, walk
 from cga_runtime.errors import NotFiniteError, WrongSizeError
 from cga_runtime.robot import load_robot
+from cga_runtime.spaces.loop_walk import CLOSED, close_loop, walk
 
 SAMPLING = json.loads((Path(__file__).parents[1] / "data" / "nao.json").read_text())["sampling"]
 ROBOT = load_robot("nao")

@@ -35,8 +35,9 @@ def close_loop(loop: ClosedLoop, q: ArrayLike, grasp: ArrayLike, steps: int = NE
     Damping 1e-12 + 1e-3 |e|^2, steps capped at 0.5 rad; joint limits are not considered.
     """
     at = loop.check_one(q).copy()
+    loop.closure_error(at, grasp)  # refuses a grasp that is no motor; below the bare kernel is enough
     for k in range(steps + 1):
-        error = loop.closure_error(at, grasp)
+        error = loop.kernel("closure_error")(at, grasp)
         if np.abs(error).max() < CLOSED:
             return at, k
         jacobian = loop.kernel("closure_jacobian")(at, grasp)
