@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import cga_runtime as cga
+from cga_runtime.compile import find_compiler
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -20,6 +21,22 @@ def pytest_configure(config: pytest.Config) -> None:
     patch.setenv("XDG_CACHE_HOME", folder)
     for name in ("CC", "CGA_NO_COMPILER"):  # a developer's settings would choose what is tested
         patch.delenv(name, raising=False)
+    config.addinivalue_line("markers", "compiler: compiles C; not run, and said so, where there is no compiler")
+    if find_compiler(None) is None:
+        config.addinivalue_line("filterwarnings", "ignore::cga_runtime.errors.KernelWarning")
+
+
+def pytest_report_header() -> str:
+    compiler = find_compiler(None)
+    return "C compiler: " + (compiler.version if compiler else "none; kernels run as Python text, tests of compiled C are left out")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Without a compiler what needs one cannot be tested; everything else still is."""
+    left_out = [item for item in items if item.get_closest_marker("compiler")] if find_compiler(None) is None else []
+    if left_out:
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if item not in set(left_out)]
 
 
 @pytest.fixture

@@ -109,13 +109,21 @@ def summary(table: Sequence[dict[str, Any]]) -> dict[str, Any]:
 
 
 def _best(table: Sequence[dict[str, Any]], key: str) -> list[int]:
-    """The orbit whose schemes are best on average: mirror images differ by the sample only."""
+    """The orbit whose schemes are best on average (mirror images differ by the sample only).
+
+    With collinear first axes mu does not change when these two joints trade places, so orbits tie, in all poses, up to rounding: of such
+    the one that divides its actuators most evenly between the arms is named, then the first.
+    """
     orbits: dict[tuple[int, ...], list[float]] = {}
     for row in table:
         orbits.setdefault(tuple(row["orbit"]), []).append(row[key])
     means = {orbit: sum(values) / len(values) for orbit, values in orbits.items()}
-    best, _ = max(means.items(), key=lambda item: item[1])
-    return list(best)
+    top = max(means.values())
+    half = max(j for row in table for j in row["actuated"]) // 2
+
+    tied = [orbit for orbit in means if means[orbit] >= (1.0 - 1e-9) * top]
+    ranked = sorted((abs(sum(1 if j <= half else -1 for j in orbit)), orbit) for orbit in tied)
+    return list(ranked[0][1])
 
 
 def _exchanged(loop: ClosedLoop, scheme: Sequence[int]) -> tuple[int, ...]:

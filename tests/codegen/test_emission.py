@@ -97,6 +97,7 @@ def relative(found, expected):
 
 
 @EVERY_KERNEL
+@pytest.mark.compiler
 def test_all_forms_agree(path, name, units, build, rng):
     kernel = units[path].kernel(name)
     count, size = 25, math.prod(kernel.shape)
@@ -128,6 +129,7 @@ def test_all_forms_agree(path, name, units, build, rng):
 
 
 @EVERY_KERNEL
+@pytest.mark.compiler
 def test_c_reports_what_is_not_finite(path, name, units, build, rng):
     """Every element of every input, one after the other; and in a batch the one bad row among many."""
     kernel = units[path].kernel(name)
@@ -146,6 +148,7 @@ def test_c_reports_what_is_not_finite(path, name, units, build, rng):
 
 
 @pytest.mark.parametrize("path", PATHS)
+@pytest.mark.compiler
 def test_bodies_compile_over_a_vector_type(path, units, build, rng):
     """The promise to batches in vector registers: with T a vector of eight doubles, each lane gives what a double gives."""
     unit = units[path]

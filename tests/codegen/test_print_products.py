@@ -202,6 +202,7 @@ def library(request, tmp_path_factory):
 
 
 @pytest.mark.parametrize("function", FUNCTIONS, ids=lambda f: f.name)
+@pytest.mark.compiler
 def test_compiled_c_equals_the_python_text(function, library, printed):
     """On small integers, where floating point is exact; also with the output laid over the first input."""
     shared, number = library
@@ -218,6 +219,7 @@ def test_compiled_c_equals_the_python_text(function, library, printed):
     assert buffers[0][: len(expected)] == expected
 
 
+@pytest.mark.compiler
 def test_c_text_takes_a_vector_type(tmp_path, printed):
     """Four products at once in the lanes of a compiler vector."""
     (tmp_path / "cga_products.h").write_text(FILES["algebra/cga_products.h"])

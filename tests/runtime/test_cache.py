@@ -38,6 +38,7 @@ def test_the_cache_is_private(root):
 
 
 @pytest.mark.parametrize("mode", [0o770, 0o720, 0o702, 0o777])
+@pytest.mark.compiler
 def test_a_cache_that_others_may_write_is_refused(root, mode, nao):
     root.mkdir(parents=True)
     root.chmod(mode)
@@ -50,6 +51,7 @@ def test_a_cache_that_others_may_write_is_refused(root, mode, nao):
 
 
 @pytest.mark.parametrize("mode", [0o770, 0o703])
+@pytest.mark.compiler
 def test_a_part_that_others_may_write_is_refused(root, mode):
     part = cache_folder("libraries")
     part.chmod(mode)
@@ -58,6 +60,7 @@ def test_a_part_that_others_may_write_is_refused(root, mode):
     assert str(refusal.value) == f"{part} may be written by others; run `chmod 700 {part}` or set XDG_CACHE_HOME"
 
 
+@pytest.mark.compiler
 def test_a_cache_of_another_user_is_refused(root, monkeypatch):
     root.mkdir(parents=True, mode=0o700)
     owner = root.stat().st_uid
@@ -94,6 +97,7 @@ def blocked_itself(root):
 
 
 @pytest.mark.parametrize("block", [blocked_by_a_file, blocked_itself])
+@pytest.mark.compiler
 def test_a_cache_that_cannot_be_made(root, block, nao):
     """Files stand in the way, because root may write anywhere: a temporary folder serves this process, and one warning says so."""
     block(root)
@@ -125,6 +129,7 @@ def test_temporary_folders_go_when_the_process_ends(root):
 
 
 @pytest.mark.parametrize("part", ["libraries", "generated"])
+@pytest.mark.compiler
 def test_a_file_in_place_of_a_part(root, part, nao):
     root.mkdir(parents=True, mode=0o700)
     (root / part).write_text("")

@@ -236,6 +236,7 @@ def test_bench_prints_its_rows(command, monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize(("line", "status"), [("robots", 0), ("singularities --kind constraint --within-limits", 1), ("mobility nau", 2)])
+@pytest.mark.compiler
 def test_the_process_ends_with_the_status(line, status):
     done = subprocess.run([sys.executable, "-m", "cga_runtime.cli", *line.split(), "--json"], capture_output=True, text=True)
     assert done.returncode == status

@@ -55,6 +55,7 @@ def libraries(cache: Path) -> list[Path]:
     return sorted(cache.glob("*.so"))
 
 
+@pytest.mark.compiler
 def test_a_library_is_made_once_and_sealed(cache, compiler, tmp_path):
     compiler(f'echo called >>{tmp_path}/log; REAL "$@"')
     assert answer() == 42
@@ -68,6 +69,7 @@ def test_a_library_is_made_once_and_sealed(cache, compiler, tmp_path):
     assert not list(cache.glob(".*"))
 
 
+@pytest.mark.compiler
 def test_compiler_arguments_are_passed_on_and_part_of_the_name(cache, monkeypatch):
     real = shlex.join(find_compiler(None).command)
     for value in (5, 7):
@@ -76,6 +78,7 @@ def test_compiler_arguments_are_passed_on_and_part_of_the_name(cache, monkeypatc
     assert len(libraries(cache)) == 2
 
 
+@pytest.mark.compiler
 def test_another_version_of_the_compiler_compiles_anew(cache, compiler, new_search):
     script = compiler('REAL "$@"')
     assert answer() == 42
@@ -94,6 +97,7 @@ def test_a_choice_that_does_not_answer(cache, choice):
     assert str(refusal.value) == f"CC={choice!r} does not answer `--version`; unset CC, or name a working C compiler"
 
 
+@pytest.mark.compiler
 def test_cc_is_the_choice(cache, monkeypatch):
     monkeypatch.setenv("CC", "/nowhere/cc")
     with pytest.raises(CompilerError, match="^CC='/nowhere/cc' does not answer"):
@@ -113,6 +117,7 @@ FAILURES = [
 
 
 @pytest.mark.parametrize(("lines", "message"), FAILURES, ids=["error", "error on stdout", "long", "not UTF-8", "no output", "killed"])
+@pytest.mark.compiler
 def test_a_compiler_that_fails(cache, compiler, lines, message):
     script = compiler(lines)
     advice = "set CC to another compiler, or CGA_NO_COMPILER=1 to run the Python text"
@@ -121,17 +126,20 @@ def test_a_compiler_that_fails(cache, compiler, lines, message):
     assert not libraries(cache) and not list(cache.glob(".build-*"))
 
 
+@pytest.mark.compiler
 def test_a_real_error_message_reaches_the_user(cache):
     with pytest.raises(CompilerError, match=r"kernels\.c:3.*undeclared"):
         compile_library("test", "int answer(void)\n{\n    return unknown_name;\n}\n")
 
 
+@pytest.mark.compiler
 def test_a_library_that_does_not_load(cache, compiler):
     script = compiler('while [ "$1" != -o ]; do shift; done; echo garbage >"$2"')
     with pytest.raises(CompilerError, match=rf"^`{script}` made a library that does not load \(.*\); set CC to another compiler"):
         answer()
 
 
+@pytest.mark.compiler
 def test_a_compiler_that_hangs(cache, compiler, monkeypatch):
     script = compiler("exec sleep 600")
     monkeypatch.setattr(compile, "TIME_LIMIT", 0.2)
@@ -139,6 +147,7 @@ def test_a_compiler_that_hangs(cache, compiler, monkeypatch):
         answer()
 
 
+@pytest.mark.compiler
 def test_a_compiler_that_vanishes(cache, compiler):
     script = compiler('REAL "$@"')
     assert find_compiler(os.environ["CC"]).version == "fake 1"
@@ -171,6 +180,7 @@ DAMAGES = {
 
 
 @pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
+@pytest.mark.compiler
 def test_a_damaged_library_is_made_again(cache, compiler, tmp_path, damage):
     compiler(f'echo called >>{tmp_path}/log; REAL "$@"')
     assert answer() == 42
@@ -186,6 +196,7 @@ def test_a_damaged_library_is_made_again(cache, compiler, tmp_path, damage):
 
 
 @pytest.mark.parametrize("content", [b"", b"garbage"])
+@pytest.mark.compiler
 def test_a_sealed_library_of_another_system_is_made_again(cache, content):
     """Library and seal agree, but it does not load here: after a change of the C library, say, which the name does not show."""
     assert answer() == 42
@@ -196,6 +207,7 @@ def test_a_sealed_library_of_another_system_is_made_again(cache, content):
     assert answer() == 42 and compile._intact(library)
 
 
+@pytest.mark.compiler
 def test_a_library_of_another_user_is_made_again(cache, monkeypatch):
     assert answer() == 42
     (library,) = libraries(cache)
@@ -205,6 +217,7 @@ def test_a_library_of_another_user_is_made_again(cache, monkeypatch):
     assert not compile._intact(library)
 
 
+@pytest.mark.compiler
 def test_a_run_killed_between_library_and_seal(cache, monkeypatch):
     class Killed(BaseException):
         pass
@@ -227,6 +240,7 @@ def test_a_run_killed_between_library_and_seal(cache, monkeypatch):
 # ---- doing without
 
 
+@pytest.mark.compiler
 def test_without_a_compiler_there_is_one_warning(cache, monkeypatch):
     compile._warn_once.cache_clear()
     monkeypatch.setenv("CGA_NO_COMPILER", "1")
@@ -266,6 +280,7 @@ def test_compilers_are_searched_in_order(tmp_path, monkeypatch, new_search):
     assert find_compiler(None) is None
 
 
+@pytest.mark.compiler
 def test_a_full_disk_is_a_sentence(cache, monkeypatch):
     def full(path, content):
         raise OSError(28, "No space left on device", str(path))

@@ -120,3 +120,10 @@ def test_bad_schemes():
     for schemes in ([(1, 2, 3, 7), (1, 2, 3)], [(1, 2, 3, 12)], [(1, 2, 3, 3)], [(1.5, 2, 3, 4)]):
         with pytest.raises(SchemeError, match="4 (distinct )?joint numbers"):
             conditioning(LOOP, np.zeros(10), schemes)
+
+
+def test_collinear_first_axes_may_trade_places():
+    """s1 = s6 up to sign, so exchanging q1' and q6' maps the closed motions to themselves: mu does not see which of the two is driven."""
+    q = LOOP.random(np.random.default_rng(7), 200)
+    for driven_1, driven_6 in (((1, 3, 7, 8), (3, 6, 7, 8)), ((1, 3, 9, 10), (3, 6, 9, 10)), ((1, 2, 4, 5), (2, 4, 5, 6))):
+        assert np.abs(LOOP.conditioning(q, driven_1) - LOOP.conditioning(q, driven_6)).max() < 1e-14

@@ -10,7 +10,7 @@ from cga_runtime import ChainError, DegenerateError, NotFiniteError, UnknownName
 Q = np.array([0.3, -0.4, 1.1, 0.7, -0.2])
 
 
-@pytest.fixture(params=["compiled", "python text"])
+@pytest.fixture(params=[pytest.param("compiled", marks=pytest.mark.compiler), "python text"])
 def subject(request, arm, loop, monkeypatch):
     """An arm and a loop whose kernels run as C, and the same as Python text: both must behave alike."""
     if request.param == "python text":

@@ -68,7 +68,8 @@ def check(loop, q, *, ranks, constraint_rank, object_dof, joint_mobility, motion
     for chain, columns in zip(found.wrenches, arms(loop, q), strict=True):
         for wrench in chain:
             powers = wrench.f @ columns[3:] / 10 + wrench.m @ columns[:3]
-            np.testing.assert_allclose(powers, 0, atol=2e-15)
+            # the null space is good to rounding times the largest twist about the origin, 10 for arms of a metre: 45 ulp in all
+            np.testing.assert_allclose(powers, 0, atol=1e-14)
     if motion is not None:
         assert found.motion == motion
     return found

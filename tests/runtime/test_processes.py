@@ -85,6 +85,7 @@ def until(condition) -> None:
     raise AssertionError("the other process did not get there in a minute")
 
 
+@pytest.mark.compiler
 def test_python_text_gives_the_same_values_with_one_warning(start):
     compiled, text = result(start()), result(start(CGA_NO_COMPILER="1"))
     assert compiled["compiled"] and not compiled["warnings"]
@@ -103,18 +104,21 @@ def test_a_machine_without_a_compiler(start, tmp_path):
     assert not text["compiled"] and np.abs(values(text) - values(compiled)).max() < 1e-13 * np.abs(values(compiled)).max()
 
 
+@pytest.mark.compiler
 def test_extras_that_are_not_installed(start):
     """numpy and casadi are enough: no lock, no platformdirs, no pinocchio, no sympy, no typer."""
     plain, bare = result(start()), result(start("filelock,platformdirs,pinocchio,sympy,typer,rich,mujoco"))
     assert bare["compiled"] and not bare["warnings"] and bare["values"] == plain["values"]
 
 
+@pytest.mark.compiler
 def test_a_compiler_that_fails_reaches_the_user(start, tmp_path):
     child = start(CC=script(tmp_path / "cc", "echo no space for code >&2; exit 1"))
     _, err = child.communicate()
     assert child.returncode == 1 and "CompilerError: `" in err and err.rstrip().endswith("no space for code")
 
 
+@pytest.mark.compiler
 def test_processes_at_once_compile_once(start, tmp_path):
     choice = script(tmp_path / "cc", f'echo "$$" >>{tmp_path}/log; REAL "$@"')
     gate = tmp_path / "gate"
@@ -127,6 +131,7 @@ def test_processes_at_once_compile_once(start, tmp_path):
     assert len((tmp_path / "log").read_text().splitlines()) == len(libraries) == 5  # three chains, their loop, the brackets
 
 
+@pytest.mark.compiler
 def test_processes_at_once_without_locks(start, tmp_path):
     """Both compile the same file at the same time (each waits for the other to begin): both are right, and one result stays."""
     waiting = f'touch {tmp_path}/begun.$$; while [ "$(ls {tmp_path}/begun.* | wc -l)" -lt 2 ]; do sleep 0.01; done; REAL "$@"'
@@ -137,6 +142,7 @@ def test_processes_at_once_without_locks(start, tmp_path):
     assert len(list(folder.glob("*.so"))) == len(list(folder.glob("*.sha256"))) == 5 and not list(folder.glob(".*"))
 
 
+@pytest.mark.compiler
 def test_a_compile_that_was_killed_leaves_nothing_that_is_loaded(start, tmp_path):
     """Half a library is on the disk when the process is killed; the next one takes its lock, compiles anew, and is right."""
     half = f'while [ "$1" != -o ]; do shift; done; echo half >"$2"; touch {tmp_path}/half; exec sleep 600'
