@@ -15,7 +15,8 @@ from cga_runtime.spaces.closed_chain import ClosedLoop
 Array = NDArray[np.float64]
 
 NEWTON_STEPS = 20
-CLOSED = 1e-12
+NEWTON_TOLERANCE = 1e-12
+"""Closure error at which Newton stops: well inside what counts as closed, so that errors do not add up along a walk."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ def close_loop(loop: ClosedLoop, q: ArrayLike, grasp: ArrayLike, steps: int = NE
     loop.closure_error(at, grasp)  # refuses a grasp that is no motor; below the bare kernel is enough
     for k in range(steps + 1):
         error = loop.kernel("closure_error")(at, grasp)
-        if np.abs(error).max() < CLOSED:
+        if np.abs(error).max() < NEWTON_TOLERANCE:
             return at, k
         jacobian = loop.kernel("closure_jacobian")(at, grasp)
         damping = 1e-12 + 1e-3 * float(error @ error)
