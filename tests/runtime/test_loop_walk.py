@@ -9,7 +9,7 @@ import pytest
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.errors import NotFiniteError, WrongSizeError
 from cga_runtime.robot import load_robot
-from cga_runtime.spaces.loop_walk import CLOSED, close_loop, walk
+from cga_runtime.spaces.loop_walk import NEWTON_TOLERANCE, close_loop, walk
 
 SAMPLING = json.loads((Path(__file__).parents[1] / "data" / "nao.json").read_text())["sampling"]
 ROBOT = load_robot("nao")
@@ -26,7 +26,7 @@ def grasp_pose(q):
 def test_walk(name):
     """Every configuration holds the grasp to 1e-11 and lies inside the limits; counts and steps are what they are said to be."""
     found = walk(LOOP, STARTS[name], 400, np.random.default_rng(40))
-    assert np.abs(LOOP.closure_error(found.q, found.grasp)).max() < CLOSED
+    assert np.abs(LOOP.closure_error(found.q, found.grasp)).max() < NEWTON_TOLERANCE
     np.testing.assert_allclose(grasp_pose(found.q), np.broadcast_to(grasp_pose(STARTS[name]), (len(found.q), 4, 4)), rtol=0, atol=1e-11)
     assert (found.q >= LOOP.lower).all() and (found.q <= LOOP.upper).all()
     assert (found.tried, len(found.q)) == (400, 401 - found.rejected)
@@ -81,7 +81,7 @@ def test_close_loop():
         for _ in range(20):
             start = q + rng.uniform(-0.1, 0.1, 10)
             closed, steps = close_loop(LOOP, start, grasp)
-            assert np.abs(LOOP.closure_error(closed, grasp)).max() < CLOSED and 1 <= steps <= 10
+            assert np.abs(LOOP.closure_error(closed, grasp)).max() < NEWTON_TOLERANCE and 1 <= steps <= 10
             correction = closed - start
             _, _, vt = np.linalg.svd(LOOP.kernel("closure_jacobian")(closed, grasp))
             assert np.linalg.norm(correction) < 0.7
