@@ -27,11 +27,11 @@ from cga_runtime.errors import SchemeError as SchemeError
 from cga_runtime.errors import StaleKernelError as StaleKernelError
 from cga_runtime.errors import UnknownNameError as UnknownNameError
 from cga_runtime.errors import WrongSizeError as WrongSizeError
+from cga_runtime.loading import bundled_robots as bundled_robots
+from cga_runtime.loading import load_robot as load_robot
 from cga_runtime.motors import Motor as Motor
 from cga_runtime.robot import Chain as Chain
 from cga_runtime.robot import Robot as Robot
-from cga_runtime.robot import bundled_robots as bundled_robots
-from cga_runtime.robot import load_robot as load_robot
 from cga_runtime.solve.reaching import Solution as Solution
 from cga_runtime.solve.reaching import reach as reach
 

@@ -22,7 +22,8 @@ from rich.table import Column, Table
 from cga_runtime import __version__
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.errors import CgaError, KernelWarning, WrongSizeError
-from cga_runtime.robot import Robot, bundled_robots, load_robot
+from cga_runtime.loading import bundled_robots, load_robot
+from cga_runtime.robot import Robot
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help=__doc__)
 log = Console(stderr=True)

@@ -20,25 +20,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime.cache import digest
 from cga_runtime.compile import compile_library
-from cga_runtime.errors import NotFiniteError, StaleKernelError, UnknownNameError, WrongSizeError
+from cga_runtime.errors import DegenerateError, NotFiniteError, StaleKernelError, UnknownNameError, WrongSizeError
+from cga_runtime.layout import OF_Q, Layout
 
-FORMAT = 1
+FORMAT = 2
 Array = NDArray[np.float64]
 _F64 = np.dtype(np.float64)
-
-# inputs of a kernel's body that come from joint positions q
-_OF_ANGLE: dict[str, Callable[[Any, Any], Any]] = {
-    "c": lambda m, q: m.cos(q),
-    "s": lambda m, q: m.sin(q),
-    "ch": lambda m, q: m.cos(0.5 * q),
-    "sh": lambda m, q: m.sin(0.5 * q),
-}
-_OF_DISPLACEMENT: dict[str, Callable[[Any], Any]] = {
-    "c": lambda q: 0 * q + 1,
-    "s": lambda q: q,
-    "ch": lambda q: 0 * q + 1,
-    "sh": lambda q: 0.5 * q,
-}
 
 
 def generated_folder() -> Path:
@@ -143,8 +130,8 @@ class Unit:
     def __init__(self, library: Library, path: str) -> None:
         self.library, self.path = library, path
         self.record: dict[str, Any] = library.manifest["units"][path]
-        self.joint_names: tuple[str, ...] = tuple(self.record["joint_names"])
-        self.joint_kinds: tuple[str, ...] = tuple(self.record["joint_kinds"])
+        self.layout = Layout.of(self.record)
+        self.joint_names, self.joint_kinds = self.layout.names, self.layout.kinds
         self._kernels: dict[str, Kernel] = {}
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -186,9 +173,9 @@ class Kernel:
         self.record: dict[str, Any] = unit.record["kernels"][name]
         self.body: tuple[str, ...] = tuple(key for key, _ in self.record["inputs"])
         self.shape: tuple[int, ...] = tuple(self.record["shape"])
-        n = len(unit.joint_names)
-        passed = {key: tuple(size) for key, size in self.record["inputs"] if key not in _OF_ANGLE}
-        self.inputs: dict[str, tuple[int, ...]] = {**({"q": (n,)} if len(passed) < len(self.body) else {}), **passed}
+        self.layout = unit.layout
+        passed = {key: tuple(size) for key, size in self.record["inputs"] if key not in OF_Q}
+        self.inputs: dict[str, tuple[int, ...]] = {**({"q": (self.layout.nq,)} if len(passed) < len(self.body) else {}), **passed}
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Unit.kernel, (self.unit, self.name)
@@ -202,6 +189,8 @@ class Kernel:
 
     def _evaluate(self, arrays: Sequence[Array], batch: tuple[int, ...]) -> Array:
         """At contiguous float64 arrays of the right shapes, all with the same batch dimensions."""
+        if self.layout.floating and "base" in self.body:
+            self.layout.check_base(arrays[0])
         out: Array = np.empty((*batch, *self.shape))
         if self._entries is None:
             for name, array in zip(self.inputs, arrays, strict=True):
@@ -210,7 +199,7 @@ class Kernel:
             flat = [np.moveaxis(a.reshape(*batch, math.prod(shape)), -1, 0) for a, shape in zip(arrays, self.inputs.values(), strict=True)]
             results = self.unit.text[self.name](*self._body_inputs(flat, np))
             out.reshape(*batch, math.prod(self.shape))[...] = np.stack(np.broadcast_arrays(*results, np.empty(batch))[:-1], axis=-1)
-            return out
+            return self._defined(out)
         single, many = self._entries
         # the interface dictionary is the cheapest way to an address that numpy offers
         addresses = [a.__array_interface__["data"][0] for a in arrays]
@@ -219,6 +208,12 @@ class Kernel:
         if bad:
             for name, array in zip(self.inputs, arrays, strict=True):
                 finite(array, name)
+        return self._defined(out)
+
+    def _defined(self, out: Array) -> Array:
+        """A kernel that divides has no value where the divisor vanishes, as the mass matrix of bodies without mass."""
+        if self.record["divisions"] and not np.isfinite(out).all():
+            raise DegenerateError(f"{self.name} has no value here: a divisor vanishes (a body or a direction without inertia)")
         return out
 
     def _checked(self, values: Sequence[ArrayLike]) -> tuple[list[Array], tuple[int, ...]]:
@@ -263,12 +258,7 @@ class Kernel:
     def _body_inputs(self, flat: Sequence[Any], module: Any) -> list[Any]:
         """Inputs of the body from flat public inputs: trigonometry of q by `module` (numpy or casadi), the rest as it is."""
         named = dict(zip(self.inputs, flat, strict=True))
-        kinds = self.unit.joint_kinds
-
-        def joint(name: str, j: int) -> Any:
-            return _OF_DISPLACEMENT[name](named["q"][j]) if kinds[j] == "prismatic" else _OF_ANGLE[name](module, named["q"][j])
-
-        return [[joint(name, j) for j in range(len(kinds))] if name in _OF_ANGLE else named[name] for name in self.body]
+        return [self.layout.body_input(name, named["q"], module) if name in OF_Q else named[name] for name in self.body]
 
     def symbolic(self, *values: Any) -> Any:
         """The kernel at casadi SX inputs (q a vector, others in their shape), as an SX matrix of its shape (3-D results: (6, n*n)).

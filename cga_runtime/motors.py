@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,22 +11,21 @@ from numpy.typing import ArrayLike
 from cga_runtime.coordinates import Array, norm, parts, read, stack, times, unit
 from cga_runtime.errors import DegenerateError
 from cga_runtime.kernels import products
+from cga_runtime.versor_group import RIGID as RIGID
+from cga_runtime.versor_group import Versor, reverse_signs
 
-RIGID = 1e-9
-"""Largest deviation of a motor from M ~M = 1, and of a pose from a rotation and a translation."""
-REVERSE = np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0])
+REVERSE = reverse_signs("motor")
 """Signs of ~M in the components of M."""
 
 
 @dataclass(frozen=True, eq=False)
-class Motor:
+class Motor(Versor, group="motor"):
     """A rigid motion x -> M x ~M, components 1 e12 e13 e23 e1i e2i e3i e123i, (..., 8); M and -M are the same motion.
 
     Raises DegenerateError where M ~M is not 1, WrongSizeError, NotFiniteError.
     """
 
     coefficients: Array
-    blades: ClassVar[tuple[str, ...]] = ("1", "e12", "e13", "e23", "e1i", "e2i", "e3i", "e123i")
 
     def __post_init__(self) -> None:
         coefficients = read(self.coefficients, "motor", 8)
@@ -50,14 +49,9 @@ class Motor:
         """
         matrix = read(pose, "pose", 4, 4)
         rotation, translation = matrix[..., :3, :3], matrix[..., :3, 3]
-        error = np.abs(np.swapaxes(rotation, -1, -2) @ rotation - np.eye(3)).max(initial=0.0)
-        if error > RIGID:
-            raise DegenerateError(f"pose: its 3x3 block is not a rotation, R^T R is off by {error:.1e} (at most {RIGID:.0e})")
-        if (np.linalg.det(rotation) < 0.0).any():
-            raise DegenerateError("pose: its 3x3 block is a reflection (determinant -1), not a rotation")
+        rotor = rotor_of_rotation(rotation, "pose")
         if (matrix[..., 3, :] != (0.0, 0.0, 0.0, 1.0)).any():
             raise DegenerateError("pose: its last row must be 0 0 0 1")
-        rotor = _rotor(rotation)
         translator = np.moveaxis(np.concatenate([np.ones_like(translation[..., :1]), -0.5 * translation], axis=-1), -1, 0)
         return cls(stack(*products().translator_rotor(translator, parts(rotor))))
 
@@ -74,19 +68,14 @@ class Motor:
         ]
         return np.stack(rows, axis=-2)
 
-    def __mul__(self, other: Motor) -> Motor:
-        """Geometric product: the motion `other`, then this one."""
-        if not isinstance(other, Motor):
-            return NotImplemented
-        return Motor(stack(*products().motor_motor(parts(self.coefficients), parts(other.coefficients))))
 
-    def __invert__(self) -> Motor:
-        """Reverse: the inverse motion."""
-        return Motor(self.coefficients * REVERSE)
-
-
-def _rotor(rotation: Array) -> Array:
-    """Rotor components 1 e12 e13 e23 of a rotation matrix, scalar part >= 0."""
+def rotor_of_rotation(rotation: Array, what: str) -> Array:
+    """Rotor components 1 e12 e13 e23 (..., 4) of the 3x3 block of a `what`, scalar part >= 0. Raises DegenerateError for no rotation."""
+    error = np.abs(np.swapaxes(rotation, -1, -2) @ rotation - np.eye(3)).max(initial=0.0)
+    if error > RIGID:
+        raise DegenerateError(f"{what}: its 3x3 block is not a rotation, R^T R is off by {error:.1e} (at most {RIGID:.0e})")
+    if (np.linalg.det(rotation) < 0.0).any():
+        raise DegenerateError(f"{what}: its 3x3 block is a reflection (determinant -1), not a rotation")
     xx, xy, xz, yx, yy, yz, zx, zy, zz = parts(rotation.reshape(*rotation.shape[:-2], 9))
     # four times the quaternion (w, x, y, z), times one of its components; the row of the largest component is accurate
     rows = [

@@ -1,115 +1,112 @@
 """Robots and chains: load a robot by name or file, cut chains from it, and evaluate their kernels.
 
-Shapes: q is (..., n), results keep the leading dimensions. Units are SI and radians. Frames LOCAL, WORLD and LOCAL_WORLD_ALIGNED mean
-what they mean in Pinocchio; rows are named by `order`.
+Shapes: q is (..., nq), v (..., nv); results keep the leading dimensions. Units are SI and radians. Frames LOCAL, WORLD and
+LOCAL_WORLD_ALIGNED mean what they mean in Pinocchio; rows are named by `order`.
 """
 
 from __future__ import annotations
 
 import json
 import math
-import os
 from collections.abc import Sequence
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cga_runtime import workshop
+from cga_runtime.conventions import FRAMES as FRAMES
+from cga_runtime.conventions import TWIST_ORDERS, reorder
 from cga_runtime.coordinates import count
 from cga_runtime.errors import UnknownNameError, WrongSizeError
-from cga_runtime.kernels import Kernel, Library, Unit, finite, generated_folder, library
+from cga_runtime.kernels import Kernel, Library, Unit, finite
+from cga_runtime.layout import BASE, Layout
+from cga_runtime.whole_body import WholeBody
 from cga_runtime.workshop import ChainOrder
 
 Array = NDArray[np.float64]
 
 _FRAMED = ("jacobian", "jacobian_derivative", "hessian")
-FRAMES = ("LOCAL", "WORLD", "LOCAL_WORLD_ALIGNED")
-# rows of a 6-row result, given in linear-first order (v, w): which row comes where, and its sign
-ORDERS: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
-    "linear_first": ((0, 1, 2, 3, 4, 5), (1, 1, 1, 1, 1, 1)),
-    "angular_first": ((3, 4, 5, 0, 1, 2), (1, 1, 1, 1, 1, 1)),
-    "bivector": ((5, 4, 3, 0, 1, 2), (1, -1, 1, 1, 1, 1)),  # e12 e13 e23 e1i e2i e3i; e13 carries the minus sign
-}
 
 
-def bundled_robots(folder: str | Path | None = None) -> list[str]:
-    """Names of the robots whose kernels come with the package (or lie in a generated folder)."""
-    return sorted(library(Path(folder) if folder is not None else generated_folder()).manifest["robots"])
+class Robot(WholeBody):
+    """A robot's description, the kernels of the whole, and the chains cut from it. Made by `load_robot`."""
 
-
-def load_robot(source: str | Path, folder: str | Path | None = None) -> Robot:
-    """A robot by bundled name, by path to a URDF, or by name from a generated `folder` (made by `cga generate FILE -o DIR`).
-
-    Raises UnknownNameError (listing the names), RobotFileError for a file that cannot be used, StaleKernelError for damaged kernels.
-    """
-    home = library(Path(folder) if folder is not None else generated_folder())
-    known = home.manifest["robots"]
-    if str(source) in known:
-        record = known[str(source)]
-        return Robot(home.read(record["description"]), home, record)
-    if isinstance(source, str | os.PathLike) and _names_a_file(Path(source)):
-        return Robot(workshop.read_robot(Path(source)), None, None)
-    raise UnknownNameError("robot", str(source), known, "Or name a URDF file")
-
-
-def _names_a_file(path: Path) -> bool:
-    try:
-        return path.suffix.lower() in (".urdf", ".xml") or path.exists()
-    except (OSError, ValueError):  # too long for a file name, or a zero character in it
-        return False
-
-
-class Robot:
-    """A robot's description, and the chains cut from it."""
-
-    def __init__(self, description: str, home: Library | None, record: dict[str, Any] | None) -> None:
+    def __init__(self, description: str, home: Library | None = None, record: dict[str, Any] | None = None) -> None:
         self._description, self._home, self._record = description, home, record
         data = json.loads(description)
         self.name: str = data["name"]
         self.source: str = data["source"]
-        self.joint_names: tuple[str, ...] = tuple(j["name"] for j in data["joints"])
+        self.gravity_vector: Array = np.array(data["gravity"], dtype=np.float64)
+        joints = [joint for joint in data["joints"] if not joint["follows"]]
+        self.layout = Layout(tuple(j["name"] for j in joints), tuple(j["kind"] for j in joints), ())
+        self.joint_names, self.joint_kinds = self.layout.names, self.layout.kinds
         self.frame_names: tuple[str, ...] = tuple(f["name"] for f in data["frames"])
-        limits = {key: [j[key] for j in data["joints"]] for key in ("lower", "upper", "velocity", "effort")}
-        self.lower, self.upper = _bounds(limits["lower"], -math.inf), _bounds(limits["upper"], math.inf)
-        self.velocity_limit, self.effort_limit = _bounds(limits["velocity"], math.inf), _bounds(limits["effort"], math.inf)
+        self.lower, self.upper = (_bounds(joints, key, BASE, sign) for key, sign in (("lower", -math.inf), ("upper", math.inf)))
+        self.velocity_limit, self.effort_limit = (_bounds(joints, key, 6, math.inf) for key in ("velocity", "effort"))
 
     @property
     def nq(self) -> int:
-        """Number of joint positions."""
-        return len(self.joint_names)
+        """Numbers in q: one a joint, and 8 of a floating base."""
+        return self.layout.nq
+
+    @property
+    def nv(self) -> int:
+        """Numbers in v: degrees of freedom."""
+        return self.layout.nv
 
     def __repr__(self) -> str:
-        return f"<Robot {self.name}: {self.nq} joints, {len(self.frame_names)} frames>"
+        return f"<Robot {self.name}: {len(self.joint_names)} joints, {len(self.frame_names)} frames>"
 
     def random(self, rng: np.random.Generator, size: int | tuple[int, ...] | None = None) -> Array:
-        """Uniform positions inside the limits (joints without limits: within +-pi), shape (size..., nq)."""
-        return _uniform(self.lower, self.upper, rng, size)
+        """Uniform positions inside the limits (joints without limits: within +-pi), shape (size..., nq).
+
+        A floating base: any rotation, uniformly, and a position within +-1 m.
+        """
+        return _uniform(self.layout, self.lower, self.upper, rng, size)
+
+    def neutral(self) -> Array:
+        """All joints at zero, a floating base at the origin: (nq,)."""
+        q = np.zeros(self.nq)
+        q[: int(self.layout.floating)] = 1.0
+        return q
+
+    def jacobian(self, q: ArrayLike, frame: str, reference: str = "LOCAL_WORLD_ALIGNED", order: str = "linear_first") -> Array:
+        """Geometric Jacobian of a frame over all velocities, (..., 6, nv); columns of joints that do not move it are zero."""
+        chain = self.chain(frame)
+        positions = finite(q, "q")
+        if positions.shape[-1:] != (self.nq,):
+            raise WrongSizeError(f"q: shape {positions.shape} given, (..., {self.nq}) needed")
+        part = chain.jacobian(positions[..., chain.index], reference, order)
+        whole = np.zeros((*part.shape[:-1], self.nv))
+        whole[..., chain.columns] = part
+        return whole
 
     def chain(
-        self, frame: str, root: str | None = None, placement: ArrayLike | None = None, offset: Sequence[float] = (0.0, 0.0, 0.0)
+        self,
+        frame: str,
+        root: str | None = None,
+        placement: ArrayLike | None = None,
+        offset: Sequence[float] = (0.0, 0.0, 0.0),
+        tool: ArrayLike | None = None,
     ) -> Chain:
         """The chain from the base (or the frame `root`) to `frame`.
 
         placement: 4x4 pose of the robot's base (with `root`: of the root frame) in the world; chains with another placement belong to
-        another robot of the same kind. offset: a point fixed in the frame (m), which becomes the end frame's origin. Kernels of chains that
-        are not checked in are generated at first use and kept in the cache. Raises UnknownNameError, WrongSizeError, ChainError,
-        DegenerateError (a placement that is no rigid motion).
+        another robot of the same kind. tool: 4x4 pose of the end frame in `frame`. offset: a point fixed in the end frame (m), which
+        becomes its origin. Kernels of chains that are not checked in are generated at first use and kept in the cache. Raises
+        UnknownNameError, WrongSizeError, ChainError, DegenerateError (a placement or tool that is no rigid motion).
         """
         for name in (frame, root):
             if name is not None and name not in self.frame_names:
                 raise UnknownNameError("frame", name, self.frame_names)
-        where = None if placement is None else finite(placement, "placement")
-        if where is not None and where.shape != (4, 4):
-            raise WrongSizeError(f"placement: shape {where.shape} given, (4, 4) needed")
         shift = finite(offset, "offset")
         if shift.shape != (3,):
             raise WrongSizeError(f"offset: shape {shift.shape} given, (3,) needed")
-        rows = None if where is None else tuple(tuple(float(x) for x in row) for row in where)
-        order = ChainOrder(self._description, frame, root, rows, (float(shift[0]), float(shift[1]), float(shift[2])))
-        plain = root is None and where is None and not shift.any()
+        where, held = _pose(placement, "placement"), _pose(tool, "tool")
+        order = ChainOrder(self._description, frame, root, where, (float(shift[0]), float(shift[1]), float(shift[2])), held)
+        plain = root is None and where is None and held is None and not shift.any()
         if plain and self._home is not None and self._record is not None and frame in self._record["chains"]:
             unit = self._home.unit(self._record["chains"][frame])
         else:
@@ -135,29 +132,36 @@ def shared_joints(first: Chain, second: Chain) -> set[str]:
 
 
 class Chain:
-    """The joints from a root to an end frame, and their kernels. Made by `Robot.chain`."""
+    """The joints from a root to an end frame, and their kernels. Made by `Robot.chain`.
+
+    index, columns: where the chain's q and v stand in the robot's.
+    """
 
     def __init__(self, robot: Robot, order: ChainOrder, unit: Unit, plain: bool) -> None:
         self.robot, self.order, self.unit, self.plain = robot, order, unit, plain
         self.frame = order.frame
-        self.joint_names = unit.joint_names
-        index = [robot.joint_names.index(name) for name in self.joint_names]
-        self.index = np.array(index, dtype=np.intp)
+        self.layout, self.joint_names, self.joint_kinds = unit.layout, unit.joint_names, unit.joint_kinds
+        self.index, self.columns = robot.layout.places(self.joint_names)
         self.lower, self.upper = robot.lower[self.index], robot.upper[self.index]
-        self.velocity_limit = robot.velocity_limit[self.index]
+        self.velocity_limit = robot.velocity_limit[self.columns]
         self._framed: dict[tuple[str, str], Kernel] = {}
 
     @property
     def n(self) -> int:
-        """Number of joints."""
-        return len(self.joint_names)
+        """Numbers in v: of a fixed base, the number of joints with a coordinate of their own."""
+        return self.layout.nv
+
+    @property
+    def nq(self) -> int:
+        """Numbers in q: n, and two more with a floating base."""
+        return self.layout.nq
 
     def __repr__(self) -> str:
         return f"<Chain {self.robot.name}/{self.frame}: {self.n} joints>"
 
     def random(self, rng: np.random.Generator, size: int | tuple[int, ...] | None = None) -> Array:
         """Uniform positions inside the limits, shape (size..., n)."""
-        return _uniform(self.lower, self.upper, rng, size)
+        return _uniform(self.layout, self.lower, self.upper, rng, size)
 
     def kernel(self, name: str) -> Kernel:
         """A kernel by name; UnknownNameError lists them. `jacobian`, `jacobian_derivative` and `hessian` alone: LOCAL_WORLD_ALIGNED."""
@@ -223,25 +227,38 @@ class Chain:
 
 
 def _ordered(rows: Array, order: str, axis: int) -> Array:
-    if order not in ORDERS:
-        raise UnknownNameError("order", order, ORDERS)
-    if order == "linear_first":
-        return rows
-    places, signs = ORDERS[order]
-    shape = [1] * rows.ndim
-    shape[axis] = 6
-    taken: Array = np.take(rows, places, axis=axis) * np.reshape(signs, shape)
-    return taken
+    return rows if order == "linear_first" else reorder(rows, TWIST_ORDERS, "linear_first", order, axis)
 
 
-def _bounds(values: Sequence[float | None], missing: float) -> Array:
-    """JSON has no infinity: an absent bound is null."""
-    return np.array([missing if value is None else float(value) for value in values])
+def _pose(pose: ArrayLike | None, what: str) -> tuple[tuple[float, ...], ...] | None:
+    if pose is None:
+        return None
+    matrix = finite(pose, what)
+    if matrix.shape != (4, 4):
+        raise WrongSizeError(f"{what}: shape {matrix.shape} given, (4, 4) needed")
+    return tuple(tuple(float(x) for x in row) for row in matrix)
 
 
-def _uniform(lower: Array, upper: Array, rng: np.random.Generator, size: int | tuple[int, ...] | None) -> Array:
+def _bounds(joints: Sequence[dict[str, Any]], key: str, of_base: int, missing: float) -> Array:
+    """JSON has no infinity: an absent bound is null. A floating base has none."""
+    values: list[float] = []
+    for joint in joints:
+        values += [missing] * of_base if joint["kind"] == "floating" else [missing if joint[key] is None else float(joint[key])]
+    return np.array(values)
+
+
+def _uniform(layout: Layout, lower: Array, upper: Array, rng: np.random.Generator, size: int | tuple[int, ...] | None) -> Array:
     shape = () if size is None else tuple(size) if isinstance(size, Sequence) else (count(size, "size"),)
     low, high = np.where(np.isfinite(lower), lower, -math.pi), np.where(np.isfinite(upper), upper, math.pi)
-    return np.asarray(rng.uniform(low, high, (*shape, len(lower))))
+    q = np.asarray(rng.uniform(low, high, (*shape, len(lower))))
+    if layout.floating:
+        q[..., :BASE] = _random_motors(rng, shape)
+    return q
 
 
+def _random_motors(rng: np.random.Generator, shape: tuple[int, ...]) -> Array:
+    from cga_runtime.quaternions import motor_from_position_quaternion
+
+    quaternion = rng.standard_normal((*shape, 4))
+    quaternion /= np.linalg.norm(quaternion, axis=-1, keepdims=True)
+    return motor_from_position_quaternion(rng.uniform(-1.0, 1.0, (*shape, 3)), quaternion, order="wxyz").coefficients

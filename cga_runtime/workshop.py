@@ -1,12 +1,12 @@
-"""The one door to the generator: makes kernels that are not checked in, on demand, and keeps their text in the cache.
+"""The door to the generator: makes kernels that are not checked in, on demand, and keeps their text in the cache.
 
 Everything here works on plain data (a robot's description as JSON), so that the rest of the runtime does not know the generator.
 """
 
 from __future__ import annotations
 
-import importlib.util
 import json
+import logging
 import os
 import tempfile
 from collections.abc import Callable, Sequence
@@ -16,19 +16,20 @@ from pathlib import Path
 from typing import Any
 
 from cga_runtime.cache import cache_folder, digest, locked
+from cga_runtime.descriptions import DEFAULT, Options, read_robot, require_pinocchio
 from cga_runtime.errors import (
     CacheError,
     ChainError,
     DegenerateError,
     FolderError,
-    MissingExtraError,
     RobotFileError,
     StaleKernelError,
-    UnknownNameError,
 )
 from cga_runtime.kernels import Library, Unit, library
 
 Say = Callable[[str], None]
+LOG = logging.getLogger("cga_runtime")
+"""Says what is generated at first use, and how many operations it has, before it is compiled."""
 
 
 @dataclass(frozen=True)
@@ -40,34 +41,7 @@ class ChainOrder:
     root: str | None
     placement: tuple[tuple[float, ...], ...] | None
     offset: tuple[float, float, float]
-
-
-def read_robot(file: Path) -> str:
-    """Description (JSON text) of a URDF. Raises RobotFileError naming what is wrong, MissingExtraError without pinocchio."""
-    from cga_codegen.robots.from_urdf import load_urdf
-    from cga_codegen.robots.model import ModelError
-
-    _require_pinocchio()
-    try:
-        model = load_urdf(file)
-    except ModelError as error:
-        raise RobotFileError(str(error)) from error
-    return json.dumps(model.to_json(), sort_keys=True)
-
-
-def bundled_file(name: str) -> Path:
-    """The URDF of a bundled robot (for peers that read URDFs). Raises UnknownNameError."""
-    from cga_codegen.robots.bundled import bundled_robots
-
-    files = bundled_robots()
-    if name not in files:
-        raise UnknownNameError("bundled robot", name, files)
-    return files[name]
-
-
-def _require_pinocchio() -> None:
-    if importlib.util.find_spec("pinocchio") is None:
-        raise MissingExtraError("reading a URDF", "pinocchio (pip name: pin)", "urdf")
+    tool: tuple[tuple[float, ...], ...] | None = None
 
 
 def chain_unit(order: ChainOrder) -> Unit:
@@ -80,24 +54,29 @@ def loop_unit(right: ChainOrder, left: ChainOrder) -> Unit:
     return _unit({"right": asdict(right), "left": asdict(left)}, lambda: _loop(right, left))
 
 
+def tree_unit(description: str, kernel: str) -> Unit:
+    """One kernel of a whole robot."""
+    return _unit({"tree": description, "kernel": kernel}, lambda: _model(description))
+
+
 def chain_geometry(order: ChainOrder) -> list[tuple[bool, Any, Any, Any]]:
     """For each joint of a chain: whether it slides, rotation rows and translation of its placement, and its axis, as plain floats."""
     return [(j.kind == "prismatic", j.placement.rotation, j.placement.translation, j.axis) for j in _chain(order).joints]
 
 
-def generate_folder(file: Path, out: Path, frames: Sequence[str], pairs: Sequence[tuple[str, str]], say: Say) -> dict[str, Any]:
-    """Behind `cga generate FILE -o DIR`: kernels of a robot's chains (default: to every tip) and loops. Returns the robot's record."""
+def generate_folder(
+    file: Path, out: Path, frames: Sequence[str], pairs: Sequence[tuple[str, str]], say: Say, options: Options = DEFAULT
+) -> dict[str, Any]:
+    """Behind `cga generate FILE -o DIR`: kernels of a robot, its chains (default: to every tip) and loops. Returns its record."""
     from cga_codegen.emit.lower import LoweringError
     from cga_codegen.emit.manifest import GeneratedFolderError
-    from cga_codegen.generate import generate
-    from cga_codegen.robots.from_urdf import load_urdf
+    from cga_codegen.generate import Selection, generate
     from cga_codegen.robots.model import ModelError
 
-    _require_pinocchio()
+    model = _model(read_robot(file, options))
     try:
-        model = load_urdf(file)
         chains = list(dict.fromkeys([*(frames or model.tips()), *(frame for pair in pairs for frame in pair)]))
-        generate([(model, chains, pairs)], out, say)
+        generate([(model, Selection(chains, pairs))], out, say)
     except GeneratedFolderError as error:
         raise FolderError(str(error)) from error
     except (ModelError, LoweringError) as error:
@@ -111,7 +90,7 @@ def generate_checked_in(out: Path, say: Say) -> None:
     from cga_codegen.emit.manifest import GeneratedFolderError
     from cga_codegen.generate import checked_in_robots, generate
 
-    _require_pinocchio()
+    require_pinocchio()
     try:
         generate(checked_in_robots(), out, say)
     except GeneratedFolderError as error:
@@ -125,17 +104,25 @@ def prove(say: Say) -> dict[str, int]:
     return run(say)
 
 
+def _model(description: str) -> Any:
+    """The generator's model of a description."""
+    from cga_codegen.robots.model import RobotModel
+
+    return RobotModel.from_json(json.loads(description))
+
+
 def _chain(order: ChainOrder) -> Any:
     """The generator's chain of an order."""
-    from cga_codegen.robots.model import ModelError, Placement, RobotModel
+    from cga_codegen.robots.model import ModelError, Placement
 
-    model = RobotModel.from_json(json.loads(order.description))
+    model = _model(order.description)
     try:
         at = None if order.placement is None else Placement.from_matrix(order.placement)
+        tool = None if order.tool is None else Placement.from_matrix(order.tool, "tool")
     except ModelError as error:
         raise DegenerateError(str(error)) from error
     try:
-        return model.chain(order.frame, order.root, at, order.offset)
+        return model.chain(order.frame, order.root, at, order.offset, tool=tool)
     except ModelError as error:
         raise ChainError(str(error)) from error
 
@@ -150,23 +137,29 @@ def _loop(right: ChainOrder, left: ChainOrder) -> Any:
 def _unit(key: dict[str, Any], subject: Callable[[], Any]) -> Unit:
     """The cached unit of a key, generated now if it is not there or damaged."""
     from cga_codegen import __version__
-    from cga_codegen.catalogue import CHAIN_KERNELS, LOOP_KERNELS, chain_unit, loop_unit
+    from cga_codegen.catalogue import CHAIN_KERNELS, LOOP_KERNELS, TREE_KERNELS, chain_unit, loop_unit, tree_unit
+    from cga_codegen.emit.lower import LoweringError
     from cga_codegen.emit.manifest import GeneratedFolderError, manifest_text, write_folder
     from cga_codegen.robots.model import ModelError
 
-    kernels = [f"{k.name} {k.function.__module__}" for k in (*CHAIN_KERNELS, *LOOP_KERNELS)]
+    kernels = [f"{k.name} {k.function.__module__}" for k in (*CHAIN_KERNELS, *LOOP_KERNELS, *TREE_KERNELS)]
     name = digest(json.dumps([__version__, _generator_digest(), kernels, key], sort_keys=True).encode())[:32]
     folder = cache_folder("generated") / name
     try:
         with locked(folder):
             if not _complete(folder):
                 made = subject()
-                texts, record = loop_unit(made) if "right" in key else chain_unit(made)
+                if "tree" in key:
+                    texts, record = tree_unit(made, key["kernel"])
+                else:
+                    texts, record = loop_unit(made) if "right" in key else chain_unit(made)
+                for kernel in record.kernels:
+                    LOG.info("%s: %s, %d operations", record.title, kernel.name, kernel.counts.total)
                 with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".build-") as build:
                     write_folder(Path(build) / "fresh", texts, manifest_text(__version__, texts, [record], {}))
                     _install(Path(build) / "fresh", folder)
-    except ModelError as error:
-        raise ChainError(str(error)) from error
+    except (ModelError, LoweringError) as error:
+        raise (ChainError if "tree" not in key else DegenerateError)(str(error)) from error
     except GeneratedFolderError as error:
         raise CacheError(str(error)) from error
     except OSError as error:

@@ -32,10 +32,13 @@ ALGEBRA, ROBOTS, KERNELS, EMIT = (f"{GEN}.{room}" for room in ("algebra", "robot
 
 # The runtime is one line: each room may import itself and what stands before it.
 LINE = (
-    *("errors", "cache", "compile", "kernels", "coordinates", "motors", "elements", "workshop", "robot", "spaces"),
+    *("errors", "cache", "compile", "layout", "kernels", "coordinates", "motors", "conventions", "quaternions", "configurations"),
+    *("elements", "descriptions", "workshop", "whole_body", "robot", "loading", "spaces"),
     *("solve", "analysis", "control", "kendo", "experiments", "report", "view", "cli"),
 )
-CALCULATES_WITHOUT_CASADI = ("errors", "kernels", "coordinates", "motors", "elements")  # nothing of it before it is asked for
+CALCULATES_WITHOUT_CASADI = (
+    *("errors", "layout", "kernels", "coordinates", "motors", "conventions", "quaternions", "configurations", "elements"),
+)  # nothing of it before it is asked for
 
 
 def up_to(last: str) -> tuple[str, ...]:
@@ -47,9 +50,9 @@ ROOMS = {
     GEN: Room(own=()),  # imported before every room, so it may bring nothing with it
     ALGEBRA: Room((ALGEBRA,), ("sympy",)),
     ROBOTS: Room((ALGEBRA, ROBOTS), ("numpy",)),
-    f"{ROBOTS}.from_urdf": Room((ALGEBRA, ROBOTS), ("numpy",), lazily=("pinocchio",)),
+    **{f"{ROBOTS}.{file}": Room((ALGEBRA, ROBOTS), ("numpy",), lazily=("pinocchio",)) for file in ("from_urdf", "from_pinocchio")},
     f"{ROBOTS}.from_mjcf": Room((ALGEBRA, ROBOTS), ("numpy",), lazily=("mujoco",)),
-    KERNELS: Room((ALGEBRA, f"{ROBOTS}.model", KERNELS), ("casadi",)),
+    KERNELS: Room((ALGEBRA, f"{ROBOTS}.model", KERNELS), ("casadi", "numpy")),
     EMIT: Room((ALGEBRA, EMIT), ("casadi",)),
     f"{GEN}.catalogue": Room((ALGEBRA, ROBOTS, KERNELS, EMIT), ("casadi", "numpy")),
     f"{GEN}.generate": Room((ALGEBRA, ROBOTS, KERNELS, EMIT, f"{GEN}.catalogue"), ("casadi", "numpy")),
@@ -58,7 +61,7 @@ ROOMS = {
     **{f"{RUN}.{room}": Room(up_to(room), ("numpy",), lazily=("casadi",)) for room in CALCULATES_WITHOUT_CASADI},
     f"{RUN}.cache": Room(up_to("cache"), ("numpy",), lazily=("casadi", "filelock", "platformdirs")),
     f"{RUN}.compile": Room(up_to("compile"), ("numpy",), lazily=("casadi", "ziglang")),
-    f"{RUN}.workshop": Room((*up_to("workshop"), GEN), ("numpy",), lazily=("casadi",)),  # the one door to cga_codegen
+    **{f"{RUN}.{door}": Room((*up_to(door), GEN), ("numpy",), lazily=("casadi",)) for door in ("descriptions", "workshop")},  # to cga_codegen
     **{f"{RUN}.{room}": Room(up_to(room), ("casadi", "numpy")) for room in LINE[LINE.index("robot") : LINE.index("report")]},
     f"{RUN}.experiments.bench": Room(up_to("experiments"), ("casadi", "numpy"), lazily=("pinocchio",)),  # the peer it measures
     f"{RUN}.control.simulation": Room(up_to("control"), ("casadi", "numpy"), lazily=("mujoco",)),

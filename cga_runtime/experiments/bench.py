@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cga_runtime.cache import write_atomic
+from cga_runtime.descriptions import bundled_file
 from cga_runtime.errors import CgaError, MissingExtraError
-from cga_runtime.robot import load_robot
-from cga_runtime.workshop import bundled_file
+from cga_runtime.loading import load_robot
 
 Array = NDArray[np.float64]
 

@@ -14,9 +14,9 @@ from typing import Any
 from cga_runtime import __version__
 from cga_runtime.cache import write_atomic
 from cga_runtime.errors import FolderError
+from cga_runtime.loading import load_robot
 from cga_runtime.report import constraint, kernels, limb, mobility, nearest, reaching, schemes, strict_json
 from cga_runtime.report.context import Context, Sizes
-from cga_runtime.robot import load_robot
 
 SECTIONS: tuple[tuple[str, ModuleType, int], ...] = (
     ("mobility", mobility, 1),

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.analysis.singularities import limb_factor_identity, limb_loci
+from cga_runtime.loading import load_robot
 from cga_runtime.report.arms import arms_at
 from cga_runtime.report.context import Context, closed_chain
 from cga_runtime.report.figures import Figure, figure, heat_map, label, limits_box, on_map
-from cga_runtime.robot import Robot, load_robot
+from cga_runtime.robot import Robot
 
 Array = NDArray[np.float64]
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from cga_codegen import __version__
-from cga_codegen.catalogue import chain_unit, identifier, loop_unit, screws_unit
+from cga_codegen.catalogue import TREE_KERNELS, chain_unit, identifier, loop_unit, screws_unit, tree_unit
 from cga_codegen.emit.manifest import UnitRecord, manifest_text, write_folder
 from cga_codegen.emit.print_products import product_files
 from cga_codegen.kernels.closed_chain import Loop
@@ -16,10 +18,22 @@ from cga_codegen.robots.bundled import bundled_robots
 from cga_codegen.robots.from_urdf import load_urdf
 from cga_codegen.robots.model import ModelError, RobotModel
 
-# robots whose kernels are checked in: name -> (chains, pairs of chains)
-CHECKED_IN: dict[str, tuple[tuple[str, ...], tuple[tuple[str, str], ...]]] = {
-    "nao": (("RHand", "LHand"), (("RHand", "LHand"),)),
-    "nao_v32": (("RHand", "LHand"), (("RHand", "LHand"),)),
+
+@dataclass(frozen=True)
+class Selection:
+    """Which kernels of a robot lie in a generated folder: chains to frames, closed chains of two of them, and kernels of the whole."""
+
+    chains: Sequence[str]
+    loops: Sequence[tuple[str, str]] = ()
+    tree: Sequence[str] = tuple(kernel.name for kernel in TREE_KERNELS)
+
+
+_NAO = Selection(("RHand", "LHand"), (("RHand", "LHand"),), ())
+CHECKED_IN: dict[str, Selection] = {
+    "nao": _NAO,
+    "nao_v32": _NAO,
+    "panda": Selection(("panda_link8",)),
+    "tm5_700": Selection(("flange",)),
 }
 
 Progress = Callable[[str], None]
@@ -30,13 +44,14 @@ def loop_name(right: str, left: str) -> str:
     return f"{right}_with_{left}"
 
 
-def robot_record(model: RobotModel, chains: Sequence[str], loops: Sequence[tuple[str, str]]) -> dict[str, Any]:
-    """What the manifest says of a robot: its description and where its chains' kernels are."""
+def robot_record(model: RobotModel, selection: Selection) -> dict[str, Any]:
+    """What the manifest says of a robot: its description and where its kernels are."""
     folder = f"robots/{identifier(model.name)}"
     return {
         "description": f"{folder}/robot.json",
-        "chains": {chain: f"{folder}/{identifier(chain)}" for chain in chains},
-        "loops": {loop_name(*pair): f"{folder}/{identifier(loop_name(*pair))}" for pair in loops},
+        "chains": {chain: f"{folder}/{identifier(chain)}" for chain in selection.chains},
+        "loops": {loop_name(*pair): f"{folder}/{identifier(loop_name(*pair))}" for pair in selection.loops},
+        "tree": {name: f"{folder}/tree_{name}" for name in selection.tree},
     }
 
 
@@ -47,17 +62,18 @@ def _loop(model: RobotModel, right: str, left: str) -> Loop:
     return loop
 
 
-def generate_robot(
-    model: RobotModel, chains: Sequence[str], loops: Sequence[tuple[str, str]], say: Progress
-) -> tuple[dict[str, str], list[UnitRecord], dict[str, Any]]:
-    """Texts, records and manifest entry of one robot. Raises ModelError for a frame that does not exist or
-    does not move, and for a pair of chains that share joints."""
-    record = robot_record(model, chains, loops)
+def generate_robot(model: RobotModel, selection: Selection, say: Progress) -> tuple[dict[str, str], list[UnitRecord], dict[str, Any]]:
+    """Texts, records and manifest entry of one robot. Raises ModelError for a frame that does not exist or does not move, for a pair of
+    chains that share joints, and for kernels that do not exist."""
+    record = robot_record(model, selection)
     files = {record["description"]: json.dumps(model.to_json(), indent=1, sort_keys=True) + "\n"}
     units: list[UnitRecord] = []
-    loop_of = {pair: _loop(model, *pair) for pair in loops}
-    made = [chain_unit(model.chain(frame)) for frame in chains] + [loop_unit(loop) for loop in loop_of.values()]
-    for texts, unit in made:
+    makers: list[Callable[[], tuple[dict[str, str], UnitRecord]]] = []
+    makers += [partial(chain_unit, model.chain(frame)) for frame in selection.chains]
+    makers += [partial(loop_unit, _loop(model, *pair)) for pair in selection.loops]
+    makers += [partial(tree_unit, model, name) for name in selection.tree]
+    for make in makers:
+        texts, unit = make()
         say(f"{unit.title}: {len(unit.kernels)} kernels, {sum(k.counts.total for k in unit.kernels)} operations")
         if known := sorted(files.keys() & texts.keys()):
             raise ModelError(f"{model.name}: two chains or loops would be called {known[0]}; generate them into separate folders")
@@ -66,20 +82,20 @@ def generate_robot(
     return files, units, record
 
 
-def generate(robots: Sequence[tuple[RobotModel, Sequence[str], Sequence[tuple[str, str]]]], folder: Path, say: Progress) -> None:
-    """Writes a complete generated folder: the algebra, and the given robots with the named chains and pairs of chains."""
+def generate(robots: Sequence[tuple[RobotModel, Selection]], folder: Path, say: Progress) -> None:
+    """Writes a complete generated folder: the algebra, and the chosen kernels of the given robots."""
     files = dict(product_files())
     screws_text, screws_record = screws_unit()
     files.update(screws_text)
     units, records = [screws_record], {}
-    for model, chains, loops in robots:
-        texts, made, record = generate_robot(model, chains, loops, say)
+    for model, selection in robots:
+        texts, made, record = generate_robot(model, selection, say)
         files.update(texts)
         units += made
         records[model.name] = record
     write_folder(folder, files, manifest_text(__version__, files, units, records))
 
 
-def checked_in_robots() -> list[tuple[RobotModel, Sequence[str], Sequence[tuple[str, str]]]]:
+def checked_in_robots() -> list[tuple[RobotModel, Selection]]:
     """The robots of CHECKED_IN, read from their bundled files."""
-    return [(load_urdf(bundled_robots()[name], name=name), chains, loops) for name, (chains, loops) in CHECKED_IN.items()]
+    return [(load_urdf(bundled_robots()[name], name=name), selection) for name, selection in CHECKED_IN.items()]

@@ -73,14 +73,19 @@ def draw(kernel: Kernel, rng, *batch):
 
 def body_inputs(kernel: Kernel, values, m):
     """What the body takes, from flat public values, written anew (the runtime's own is under test): `m` has cos and sin."""
-    named, kinds = dict(zip(kernel.inputs, values, strict=True)), kernel.unit.joint_kinds
+    named, layout = dict(zip(kernel.inputs, values, strict=True)), kernel.unit.layout
     turning = {"c": lambda q: m.cos(q), "s": lambda q: m.sin(q), "ch": lambda q: m.cos(q / 2), "sh": lambda q: m.sin(q / 2)}
     sliding = {"c": lambda q: 1 + 0 * q, "s": lambda q: q, "ch": lambda q: 1 + 0 * q, "sh": lambda q: q / 2}
 
     def of(name):
-        return [(sliding if kind == "prismatic" else turning)[name](q) for kind, q in zip(kinds, named["q"], strict=True)]
+        return [(sliding if kind == "prismatic" else turning)[name](q) for kind, q in named_joints(layout, named["q"])]
 
     return [of(name) if name in turning else named[name] for name in kernel.body]
+
+
+def named_joints(layout, q):
+    """Kind and position of each joint, mimicking ones by their ratio."""
+    return [(layout.kinds[k], ratio * q[k] if ratio != 1.0 else q[k]) for k, ratio in layout.motions]
 
 
 def call(function, *arrays):

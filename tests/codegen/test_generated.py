@@ -120,11 +120,11 @@ def test_the_remedy_of_the_checked_in_folder_is_to_run_generate():
 
 MANIFESTS = [
     ("", "is not a manifest of generated kernels (Expecting value"),
-    ('{"format": 1,', "is not a manifest of generated kernels (Expecting property name"),
+    ('{"format": 2,', "is not a manifest of generated kernels (Expecting property name"),
     ("[]", "is not a manifest of generated kernels (unfinished, or a file of something else)"),
     ("7", "is not a manifest of generated kernels (unfinished, or a file of something else)"),
     ("{}", "is not a manifest of generated kernels (unfinished, or a file of something else)"),
-    ('{"format": 1}', "is not a manifest of generated kernels (unfinished, or a file of something else)"),
+    ('{"format": 2}', "is not a manifest of generated kernels (unfinished, or a file of something else)"),
     ("\udcff", "is not a manifest of generated kernels ('utf-8' codec can't decode"),
 ]
 

@@ -7,7 +7,7 @@ import pytest
 
 from cga_codegen.algebra.blade_types import MOTOR, POINT
 from cga_codegen.algebra.multivector import Multivector
-from cga_codegen.kernels.screws import inward, outward
+from cga_codegen.kernels.walk import inward, outward
 from cga_codegen.kernels.versors import motor
 from cga_codegen.robots.model import Chain, Joint, Placement
 

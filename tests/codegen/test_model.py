@@ -80,11 +80,13 @@ def tree():
     return RobotModel("tree", joints, frames, "test")
 
 
-def test_a_rotation_near_a_signed_permutation_becomes_it_as_a_whole():
+def test_a_rotation_within_rounding_of_a_signed_permutation_becomes_it_as_a_whole():
     exact = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    near = exact @ rodrigues((0.6, 0.0, 0.8), 5e-12)
+    near, rough = (exact @ rodrigues((0.6, 0.0, 0.8), angle) for angle in (5e-16, 5e-12))
     assert not np.array_equal(near, exact)
     assert np.array_equal(as_rotation(near, "r"), exact)
+    assert np.array_equal(as_rotation(rough, "r"), rough)  # 1.57079632679 in a file is not pi/2 unless the user says so
+    assert np.array_equal(as_rotation(rough, "r", 1e-11), exact)
 
 
 def test_single_entries_are_never_snapped():

@@ -145,16 +145,31 @@ REFUSED = {
     ),
     "a quaternion": (origin('quat_xyzw="0 0 0 1"'), BrokenFileError, "joint 'j': <origin> has 'quat_xyzw'; xyz and rpy are read"),
     "floating": (
-        urdf(AB + joint(kind="floating")),
+        urdf(ABC + joint() + joint("k", "b", "c", kind="floating")),
         UnsupportedJointError,
-        "joint 'j' is of type 'floating'; revolute, continuous, prismatic and fixed are read",
+        "joint 'k' floats, but does not carry the whole robot; only a floating base can be represented",
     ),
     "planar": (urdf(AB + joint(kind="planar")), UnsupportedJointError, "joint 'j' is of type 'planar'; revolute"),
     "no type": (urdf(AB + joint(kind="")), UnsupportedJointError, "joint 'j' is of type ''; revolute"),
-    "mimic": (
-        urdf(ABC + joint() + joint("k", "b", "c", inside='<mimic joint="j" multiplier="-1"/>' + LIMIT)),
+    "mimics nobody": (
+        urdf(ABC + joint() + joint("k", "b", "c", inside='<mimic joint="z"/>' + LIMIT)),
         UnsupportedJointError,
-        "joint 'k' mimics 'j', which is not modelled; delete its <mimic>, make it fixed, or ask for mimic='independent'",
+        "joint 'k' mimics 'z', which is no moving joint; name one that moves",
+    ),
+    "mimics itself": (
+        urdf(ABC + joint(inside='<mimic joint="k"/>' + LIMIT) + joint("k", "b", "c", inside='<mimic joint="j"/>' + LIMIT)),
+        UnsupportedJointError,
+        "joint 'j' mimics itself in the end; one joint must move by itself",
+    ),
+    "mimics without a name": (
+        urdf(ABC + joint() + joint("k", "b", "c", inside="<mimic/>" + LIMIT)),
+        BrokenFileError,
+        "joint 'k': its <mimic> names no joint; the name of a moving joint is needed",
+    ),
+    "mimics by a word": (
+        urdf(ABC + joint() + joint("k", "b", "c", inside='<mimic joint="j" multiplier="minus one"/>' + LIMIT)),
+        BadNumberError,
+        "joint 'k': mimic: multiplier is 'minus one'; one number is needed",
     ),
     "nan in an origin": (origin('xyz="0 nan 0"'), BadNumberError, "joint 'j': origin xyz is '0 nan 0'; a finite number is needed"),
     "overflow": (origin('rpy="0 0 1e999"'), BadNumberError, "joint 'j': origin rpy is '0 0 1e999'; a finite number is needed"),

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from cga_runtime.analysis.closed_chain import ClosedChain
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 from cga_runtime.spaces.closed_chain import LENGTH
 
 ORACLE = json.loads((Path(__file__).parents[1] / "data" / "nao.json").read_text())

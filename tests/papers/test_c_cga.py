@@ -18,7 +18,7 @@ from cga_codegen.algebra.signature import CGA
 from cga_codegen.kernels.screws import Screw, bracket
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.analysis.mobility import Wrench
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 
 ROBOT = load_robot("nao")
 LOOP = ClosedChain(ROBOT.chain("RHand"), ROBOT.chain("LHand"))

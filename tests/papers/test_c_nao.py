@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from cga_runtime.analysis.closed_chain import ClosedChain
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 from cga_runtime.spaces.loop_walk import walk
 
 DATA = Path(__file__).parents[1] / "data"

@@ -18,7 +18,7 @@ from sympy.polys.matrices import DomainMatrix
 from cga_runtime.analysis.certificates import NotRationalError, RationalArm, exact_rank, mirror_signs
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.analysis.schemes import atlas
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 
 FACTS = json.loads((Path(__file__).parents[1] / "data" / "nao_facts.json").read_text(), parse_float=Fraction)
 CONSTANTS = FACTS["constants"]

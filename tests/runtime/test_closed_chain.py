@@ -9,7 +9,7 @@ import pytest
 
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.errors import GraspError
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 from cga_runtime.spaces.closed_chain import LENGTH
 
 DATA = Path(__file__).parents[1] / "data"

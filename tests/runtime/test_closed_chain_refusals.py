@@ -5,7 +5,7 @@ import pytest
 
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.errors import DegenerateError, GraspError, NotFiniteError, SchemeError, UnknownNameError, WrongSizeError
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 from cga_runtime.spaces.loop_walk import close_loop
 
 ROBOT = load_robot("nao")

@@ -6,7 +6,7 @@ import pytest
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.analysis.closed_forms import determinant_factors
 from cga_runtime.errors import DegenerateError, SchemeError
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 
 SCHEMES = [(1, 2, 3, 7), (1, 3, 7, 8), (1, 2, 3, 4), (1, 2, 3, 5), (1, 2, 4, 5), (1, 3, 4, 5)]
 

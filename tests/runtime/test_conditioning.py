@@ -10,7 +10,7 @@ import pytest
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.analysis.schemes import conditioning
 from cga_runtime.errors import SchemeError
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 
 ORACLE = json.loads((Path(__file__).parents[1] / "data" / "nao.json").read_text())
 ALL = list(combinations(range(1, 11), 4))

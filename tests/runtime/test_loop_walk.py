@@ -8,7 +8,7 @@ import pytest
 
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.errors import NotFiniteError, WrongSizeError
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 from cga_runtime.spaces.loop_walk import NEWTON_TOLERANCE, close_loop, walk
 
 SAMPLING = json.loads((Path(__file__).parents[1] / "data" / "nao.json").read_text())["sampling"]

@@ -5,7 +5,8 @@ import pinocchio as pin
 import pytest
 
 from cga_codegen.robots.bundled import bundled_robots as bundled_files
-from cga_runtime.robot import FRAMES, Chain, load_robot
+from cga_runtime.loading import load_robot
+from cga_runtime.robot import FRAMES, Chain
 
 DRAWS = 10_000
 FRAME = {name: getattr(pin.ReferenceFrame, name) for name in FRAMES}

@@ -18,7 +18,7 @@ from cga_runtime.analysis.schemes import (
     conditioning,
     summary,
 )
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 from cga_runtime.spaces.loop_walk import walk
 
 ORACLE = json.loads((Path(__file__).parents[1] / "data" / "nao.json").read_text())

@@ -10,7 +10,7 @@ import pytest
 from cga_runtime.analysis.closed_chain import ClosedChain
 from cga_runtime.analysis.singularities import BOX, limb_factor_identity, limb_loci
 from cga_runtime.errors import DegenerateError, SchemeError, UnknownNameError, WrongSizeError
-from cga_runtime.robot import load_robot
+from cga_runtime.loading import load_robot
 
 ORACLE = json.loads((Path(__file__).parents[1] / "data" / "nao.json").read_text())
 SINGULAR = ORACLE["singular"]

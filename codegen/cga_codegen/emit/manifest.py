@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from cga_codegen.emit.layout import Layout
 from cga_codegen.emit.lower import Counts
 
-FORMAT = 1
+FORMAT = 2
 """Raised when the layout changes in a way that an older runtime cannot read."""
 
 
@@ -58,20 +59,20 @@ class KernelRecord:
 
 @dataclass(frozen=True)
 class UnitRecord:
-    """What is compiled together: `path`.c and `path`.py, with the joints that q counts."""
+    """What is compiled together: `path`.c and `path`.py, with what q holds."""
 
     path: str
     title: str
-    joint_names: tuple[str, ...]
-    joint_kinds: tuple[str, ...]
+    layout: Layout
     kernels: tuple[KernelRecord, ...]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for the manifest."""
         return {
             "title": self.title,
-            "joint_names": list(self.joint_names),
-            "joint_kinds": list(self.joint_kinds),
+            "joint_names": list(self.layout.names),
+            "joint_kinds": list(self.layout.kinds),
+            "motions": [list(motion) for motion in self.layout.motions],
             "kernels": {kernel.name: kernel.to_json() for kernel in self.kernels},
         }
 

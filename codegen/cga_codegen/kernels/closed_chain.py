@@ -10,10 +10,11 @@ from dataclasses import dataclass
 
 from cga_codegen.algebra.blade_types import MOTOR, TWIST
 from cga_codegen.algebra.multivector import Multivector
-from cga_codegen.kernels.screws import Configuration, Screw, outward
+from cga_codegen.kernels.screws import Screw
 from cga_codegen.kernels.vectors import Scalar, Vector, cross, dot, minus, plus, times
 from cga_codegen.kernels.versors import full_angles, motor
-from cga_codegen.robots.model import Chain
+from cga_codegen.kernels.walk import Configuration, outward
+from cga_codegen.robots.model import Chain, ModelError
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,13 @@ class Loop:
     name: str
     right: Chain
     left: Chain
+
+    def __post_init__(self) -> None:
+        for chain in (self.right, self.left):
+            for joint in chain.joints:
+                if joint.follows or joint.kind == "floating":
+                    what = "floats" if joint.kind == "floating" else f"mimics {joint.follows!r}"
+                    raise ModelError(f"{chain.robot}: joint {joint.name!r} {what}; a closed chain needs joints that move by themselves")
 
     @property
     def n(self) -> int:

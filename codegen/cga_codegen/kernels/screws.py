@@ -1,4 +1,4 @@
-"""Joint screws of a chain and their brackets: the part of kinematics that knows only lines and their moments.
+"""Screws and their brackets: the part of kinematics that knows only lines and their moments.
 
 A screw is (w, v): angular velocity w, and velocity v of the point at the origin of the frame it is expressed in. As a bivector of
 the algebra, B = w_x e23 - w_y e13 + w_z e12 + v_x e1i + v_y e2i + v_z e3i (note the minus sign), whose motor is exp(-q B/2).
@@ -6,16 +6,13 @@ the algebra, B = w_x e23 - w_y e13 + w_z e12 + v_x e1i + v_y e2i + v_z e3i (note
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
 from cga_codegen.algebra.blade_types import TWIST
 from cga_codegen.algebra.multivector import Multivector
-from cga_codegen.kernels.vectors import Scalar, Vector, combine, cross, dot, minus, plus, times
-from cga_codegen.robots.model import Chain, Placement, Rows3
+from cga_codegen.kernels.vectors import Axes, Scalar, Vector, cross, dot, minus, plus, times
 
-Axes = list[list[Scalar]]
 Triple = tuple[int, int, int]
 Triples = dict[Triple, Scalar]
 
@@ -55,111 +52,6 @@ def add(a: Screw, b: Screw) -> Screw:
 def scale(x: Scalar, a: Screw) -> Screw:
     """A twist times a scalar."""
     return Screw(times(x, a.w), times(x, a.v))
-
-
-@dataclass(frozen=True)
-class Configuration:
-    """A chain at (c, s): the joint axes as screws and points, and the pose of the end frame, all in the frame the walk began in.
-
-    axes[j] is the direction of joint j, points[j] a point on it; rotation holds the columns of the end frame's rotation.
-    """
-
-    prismatic: tuple[bool, ...]
-    axes: Axes
-    points: Axes
-    rotation: Axes
-    position: list[Scalar]
-
-    def screws(self) -> list[Screw]:
-        """Screws of the joints about the origin of that frame."""
-        zero = [0 * x for x in self.position]
-        return [
-            Screw(zero, a) if slides else Screw(a, cross(p, a))
-            for slides, a, p in zip(self.prismatic, self.axes, self.points, strict=True)
-        ]
-
-    def screws_at_end(self) -> list[Screw]:
-        """The same with v taken at the end frame's origin (axes unchanged): LOCAL_WORLD_ALIGNED."""
-        zero = [0 * x for x in self.position]
-        return [
-            Screw(zero, a) if slides else Screw(a, cross(a, minus(self.position, p)))
-            for slides, a, p in zip(self.prismatic, self.axes, self.points, strict=True)
-        ]
-
-
-def _to_axis(axis: Sequence[float]) -> Placement:
-    """A constant rotation that carries +z to the joint axis: a cyclic permutation (free) when the axis is a coordinate axis."""
-    x, y, z = axis
-    cyclic: dict[tuple[float, ...], Rows3] = {
-        (0.0, 0.0, 1.0): ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
-        (1.0, 0.0, 0.0): ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
-        (0.0, 1.0, 0.0): ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
-        (0.0, 0.0, -1.0): ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)),
-        (-1.0, 0.0, 0.0): ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)),
-        (0.0, -1.0, 0.0): ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)),
-    }
-    if (x, y, z) in cyclic:
-        return Placement(cyclic[(x, y, z)])
-    # any rotation with third column = axis: the shortest turn from z, or from -z (after half a turn about x), whichever is nearer
-    k = 1.0 / (1.0 + z) if z > -0.5 else 1.0 / (1.0 - z)
-    if z > -0.5:
-        return Placement(((1.0 - x * x * k, -x * y * k, x), (-x * y * k, 1.0 - y * y * k, y), (-x, -y, z)))
-    return Placement(((1.0 - x * x * k, x * y * k, x), (-x * y * k, -1.0 + y * y * k, y), (x, -y, z)))
-
-
-def _z_axes(chain: Chain) -> tuple[list[Placement], Placement, tuple[bool, ...]]:
-    """The chain with every joint about its own +z: placements before each joint, the tool, and which joints are prismatic."""
-    turns = [_to_axis(joint.axis) for joint in chain.joints]
-    before = Placement()
-    placements = []
-    for joint, turn in zip(chain.joints, turns, strict=True):
-        placements.append(before @ joint.placement @ turn)
-        before = turn.inverse()
-    return placements, before @ chain.tool, tuple(j.kind == "prismatic" for j in chain.joints)
-
-
-def _walk(placements: list[Placement], tool: Placement, prismatic: tuple[bool, ...], c: Vector, s: Vector) -> Configuration:
-    """Rotation columns and position, joint by joint; nothing is expanded across joints."""
-    columns: Axes = [[1 if i == k else 0 for i in range(3)] for k in range(3)]
-    position: list[Scalar] = [0, 0, 0]
-    axes: Axes = []
-    points: Axes = []
-
-    def place(at: Placement) -> None:
-        nonlocal columns, position
-        exact = [[int(x) if x in (0.0, 1.0, -1.0) else x for x in row] for row in at.rotation]
-        position = plus(position, combine(columns, [int(x) if x == 0.0 else x for x in at.translation]))
-        columns = [combine(columns, [row[k] for row in exact]) for k in range(3)]
-
-    for j, placement in enumerate(placements):
-        place(placement)
-        axes.append(columns[2])
-        points.append(position)
-        if prismatic[j]:
-            position = plus(position, times(s[j], columns[2]))
-        else:
-            x, y, z = columns
-            columns = [plus(times(c[j], x), times(s[j], y)), minus(times(c[j], y), times(s[j], x)), z]
-    place(tool)
-    return Configuration(prismatic, axes, points, columns, position)
-
-
-def outward(chain: Chain, c: Vector, s: Vector) -> Configuration:
-    """The chain seen from its root."""
-    return _walk(*_z_axes(chain), c, s)
-
-
-def inward(chain: Chain, c: Vector, s: Vector) -> Configuration:
-    """The chain seen from its end frame: the inverse chain, walked from the tool. Joints keep their order and their axes' sense.
-
-    Its `screws()` are the body screws (LOCAL Jacobian), for fewer operations than turning the outward ones.
-    """
-    placements, tool, prismatic = _z_axes(chain)
-    backwards = [tool.inverse(), *(p.inverse() for p in reversed(placements[1:]))]
-    n = chain.n
-    # walking backwards every joint turns the other way
-    seen = _walk(backwards, placements[0].inverse(), prismatic[::-1], [c[n - 1 - j] for j in range(n)], [-s[n - 1 - j] for j in range(n)])
-    return Configuration(prismatic, seen.axes[::-1], seen.points[::-1], seen.rotation, seen.position)
 
 
 def _split_in_threes() -> list[tuple[Triple, Triple, int]]:

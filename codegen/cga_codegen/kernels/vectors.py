@@ -10,6 +10,7 @@ from typing import Any
 
 Scalar = Any
 Vector = Sequence[Scalar]
+Axes = list[list[Scalar]]
 
 
 def cross(a: Vector, b: Vector) -> list[Scalar]:

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 
 from cga_codegen.algebra.blade_types import MOTOR, ROTOR, TRANSLATOR
 from cga_codegen.algebra.multivector import Multivector
-from cga_codegen.kernels.screws import Configuration, outward
-from cga_codegen.kernels.vectors import Scalar, Vector
+from cga_codegen.kernels.vectors import Scalar, Vector, plus, times
+from cga_codegen.kernels.walk import Configuration, outward
 from cga_codegen.robots.model import Chain, Placement
 
 
@@ -50,42 +50,53 @@ def scaled_rotor(placement: Placement) -> tuple[Multivector, float]:
     return Multivector(ROTOR, values), left_out
 
 
-def _chain_motor(chain: Chain, ch: Vector, sh: Vector) -> Multivector:
+def _chain_motor(chain: Chain, ch: Vector, sh: Vector, base: Vector | None = None) -> Multivector:
     """Placement, joint, placement, joint ... tool, as sparse products; constant factors are multiplied into the first joint."""
     turns = [scaled_rotor(placement) for placement in (*(joint.placement for joint in chain.joints), chain.tool)]
     factor = math.prod(left_out for _, left_out in turns)
     motor = Multivector(ROTOR, [1, 0, 0, 0])
-    for j, joint in enumerate(chain.joints):
-        motor = motor * translator(joint.placement.translation) * turns[j][0]
-        k = factor if j == 0 and factor != 1.0 else 1
+    number = iter(range(len(chain.joints)))
+    for joint, (turn, _) in zip(chain.joints, turns[:-1], strict=True):
+        motor = motor * translator(joint.placement.translation) * turn
+        if joint.kind == "floating":
+            assert base is not None, "the catalogue passes the base of a chain that has one"
+            motor = (motor * Multivector(MOTOR, [base[k] for k in range(8)])).project(MOTOR)
+            continue
+        j = next(number)
+        k, factor = (factor, 1.0) if factor != 1.0 else (1, 1.0)
         if joint.kind == "prismatic":
             motor = motor * Multivector(TRANSLATOR, [k, *(-a * sh[j] * k if a else 0 for a in joint.axis)])
         else:
             motor = motor * rotor_about(joint.axis, ch[j] * k, sh[j] * k)
     motor = motor * translator(chain.tool.translation) * turns[-1][0]
-    return (motor if chain.n else motor.scaled(factor)).project(MOTOR)
+    return (motor.scaled(factor) if factor != 1.0 else motor).project(MOTOR)
 
 
-def motor(chain: Chain, ch: Vector, sh: Vector) -> list[Scalar]:
+def motor(chain: Chain, ch: Vector, sh: Vector, base: Vector | None = None) -> list[Scalar]:
     """Motor of the end frame in the root frame, components 1 e12 e13 e23 e1i e2i e3i e123i, unit norm."""
-    return list(_chain_motor(chain, ch, sh).coefficients)
+    return list(_chain_motor(chain, ch, sh, base).coefficients)
 
 
 def full_angles(chain: Chain, ch: Vector, sh: Vector) -> tuple[list[Scalar], list[Scalar]]:
     """(c, s) from (ch, sh): the double-angle formulas (prismatic joints: 1 and the displacement)."""
-    slides = [joint.kind == "prismatic" for joint in chain.joints]
+    slides = [joint.kind == "prismatic" for joint in chain.joints if joint.kind != "floating"]
     c = [1 if slide else 1 - 2 * (y * y) for slide, y in zip(slides, sh, strict=True)]
     s = [2 * y if slide else 2 * (x * y) for slide, x, y in zip(slides, ch, sh, strict=True)]
     return c, s
 
 
-def motor_jacobian(chain: Chain, ch: Vector, sh: Vector) -> list[Scalar]:
+def motor_jacobian(chain: Chain, ch: Vector, sh: Vector, base: Vector | None = None) -> list[Scalar]:
     """Analytic Jacobian of the motor: column j is -1/2 S_j M with the world screw S_j, rows as the motor's.
 
-    (Paper A, eqs. 7-8; the derivative of exp(-q_j B_j/2) inside the product.)
+    (Paper A, eqs. 7-8; the derivative of exp(-q_j B_j/2) inside the product.) The column of a coordinate that several joints follow is the
+    sum of theirs; the six of a floating base belong to its twist.
     """
-    m = _chain_motor(chain, ch, sh)
-    configuration: Configuration = outward(chain, *full_angles(chain, ch, sh))
+    m = _chain_motor(chain, ch, sh, base)
+    configuration: Configuration = outward(chain, *full_angles(chain, ch, sh), base)
     half = m.scaled(-0.5)
-    columns = [(screw.multivector() * half).project(MOTOR).coefficients for screw in configuration.screws()]
+    columns: list[list[Scalar]] = [[] for _ in range(chain.coordinates.nv)]
+    for (k, ratio), screw in zip(chain.coordinates.columns, configuration.screws(), strict=True):
+        part = list((screw.multivector() * half).project(MOTOR).coefficients)
+        part = part if ratio == 1.0 else times(ratio, part)
+        columns[k] = plus(columns[k], part) if columns[k] else part
     return [column[i] for i in range(8) for column in columns]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cga_codegen.robots.model import ModelError
+from cga_codegen.robots.placement import ModelError
 
 
 class UnreadableFileError(ModelError):
@@ -30,4 +30,8 @@ class BadNumberError(ModelError):
 
 
 class UnsupportedJointError(ModelError):
-    """A joint that is not one degree of freedom of its own: floating, planar, spherical, mimicking."""
+    """A joint that cannot be represented: floating away from the base, planar, spherical, mimicking what does not move."""
+
+
+class InertiaWarning(UserWarning):
+    """An inertia that no rigid body has; it is used as given, and simulations may behave oddly."""

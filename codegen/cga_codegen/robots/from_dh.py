@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from importlib.resources import files
@@ -20,8 +21,9 @@ from typing import Any, Literal, TypeVar
 
 import numpy as np
 
-from cga_codegen.robots.errors import BadNumberError, DuplicateNameError, TreeError, UnsupportedJointError
+from cga_codegen.robots.errors import BadNumberError, BrokenFileError, DuplicateNameError, TreeError, UnsupportedJointError
 from cga_codegen.robots.model import Frame, Joint, ModelError, Placement, RobotModel, as_rotation, as_vector
+from cga_codegen.robots.safe_xml import file_text
 
 RowKind = Literal["revolute", "continuous", "prismatic", "fixed"]
 
@@ -138,6 +140,43 @@ def _check(row: Row, frames: dict[str, Frame], label: str) -> None:
         raise BadNumberError(f"{label}: limits are {row.lower:g} and {row.upper:g}; lower <= upper is needed")
     if not (row.velocity >= 0.0 and row.effort >= 0.0):
         raise BadNumberError(f"{label}: velocity and effort limits are {row.velocity:g} and {row.effort:g}; none may be negative")
+
+
+_TABLES: dict[str, tuple[type[Row], Callable[..., RobotModel]]] = {"modified": (ModifiedRow, load_mdh), "standard": (StandardRow, load_dh)}
+
+
+def load_table(table: Any) -> RobotModel:
+    """The robot of a table as plain data: {"name": ..., "convention": "modified" or "standard", "rows": [{"name": ..., "d": ...}, ...]}.
+
+    A row's keys are those of ModifiedRow or StandardRow (lengths m, angles rad); "base" may hold a 4x4 pose of frame 0.
+    """
+    if not isinstance(table, dict) or not {"name", "convention", "rows"} <= table.keys() <= {"name", "convention", "rows", "base"}:
+        raise BrokenFileError("DH table: a mapping with the keys name, convention and rows (and perhaps base) is needed")
+    if table["convention"] not in _TABLES:
+        raise BrokenFileError(f"DH table: convention {table['convention']!r} given; 'modified' or 'standard' is needed")
+    kind, load = _TABLES[table["convention"]]
+    keys = {key: field.type for key, field in kind.__dataclass_fields__.items()}
+    rows = []
+    for number, row in enumerate(table["rows"] if isinstance(table["rows"], list) else [None], 1):
+        label = f"DH table: row {number}"
+        if not isinstance(row, dict) or "name" not in row or not row.keys() <= keys.keys():
+            raise BrokenFileError(f"{label}: a mapping with a name and keys among {', '.join(keys)} is needed")
+        for key, value in row.items():
+            wanted: tuple[type, ...] = (str,) if keys[key] in ("str", "RowKind") else (int, float)
+            if not isinstance(value, wanted) or isinstance(value, bool):
+                raise BadNumberError(f"{label}: {key} is {value!r}; a {'word' if wanted == (str,) else 'number'} is needed")
+        rows.append(kind(**row))
+    base = None if table.get("base") is None else Placement.from_matrix(table["base"], "DH table: base")
+    return load(rows, str(table["name"]), base)
+
+
+def read_table(path: str | os.PathLike[str]) -> RobotModel:
+    """The robot of a table in a JSON file. Raises children of ModelError."""
+    text, source = file_text(path, "DH table")
+    try:
+        return replace(load_table(json.loads(text)), source=source)
+    except (json.JSONDecodeError, RecursionError) as error:
+        raise BrokenFileError(f"{source}: not JSON ({error}); a DH table is needed") from None
 
 
 def nao_mdh(version: str = "V50") -> RobotModel:

@@ -1,132 +1,103 @@
 """URDF to `RobotModel`, through Pinocchio: its joint order, its frames, its merging of links that fixed joints hold together.
 
-Frames are those of Pinocchio, in its order: "universe", then for each joint (moving or fixed) a frame of its name, and for each link a
-frame of its name. Where a joint and a link share a name, the first in that order keeps it; if the later one lies elsewhere, it is called
-"NAME:joint" or "NAME:link" (a link always coincides with its own joint, so this is rare).
-
 Meshes, materials, sensors, transmissions, damping and friction are not read.
 """
 
 from __future__ import annotations
 
 import os
-from typing import Any, cast
+import warnings
+from typing import Any, Literal, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
-from cga_codegen.robots.errors import BrokenFileError, DuplicateNameError
-from cga_codegen.robots.model import Frame, Inertia, Joint, Kind, ModelError, Placement, RobotModel, as_rotation, as_vector
-from cga_codegen.robots.urdf_file import Body, Limits, Mimic, read_urdf
+from cga_codegen.robots.errors import BrokenFileError, InertiaWarning
+from cga_codegen.robots.from_pinocchio import follow, frames_of, pinocchio_joint, placement_of
+from cga_codegen.robots.model import Inertia, Joint, Kind, ModelError, Placement, RobotModel, as_rotation, as_vector
+from cga_codegen.robots.placement import merged
+from cga_codegen.robots.urdf_file import Body, Mimic, UrdfFile, read_urdf
 
-Array = NDArray[np.float64]
+Base = Literal["fixed", "floating"]
+ROOT = "root_joint"
+"""Name of the joint of a floating base, as in Pinocchio."""
+UNSOUND = 1e-6
+"""How far, relative to its size, an inertia may fall short of the triangle inequality before a warning is due (files round to 3 digits)."""
 
 
-def load_urdf(path_or_text: str | os.PathLike[str], name: str | None = None, *, mimic: Mimic = "refuse") -> RobotModel:
-    """The robot of a URDF file (or of its text), on a fixed base: the root link is the base.
+def load_urdf(
+    path_or_text: str | os.PathLike[str], name: str | None = None, *, base: Base = "fixed", mimic: Mimic = "follow"
+) -> RobotModel:
+    """The robot of a URDF file (or of its text). The root link is the base: fixed, or floating.
 
     Joints come in Pinocchio's order, one coordinate each; a continuous joint is an angle without limits (lower -inf, upper inf), where
     Pinocchio has a cosine and a sine. Axes are unit vectors. Inertias are those of all links that a joint carries rigidly, as in
     Pinocchio: about their common centre of mass, in the joint's frame (m, kg, kg m^2); None if the file gives no mass.
 
-    name: the model's name, default: the file's. mimic: a mimicking joint is refused, or, with "independent", read as a joint of its own
-    (what Pinocchio does without a word).
+    name: the model's name, default: the file's. mimic: a mimicking joint follows its leader (whose coordinate moves both), or, with
+    "independent", is read as a joint of its own. Limits of joints that follow are not read, as in Pinocchio.
 
-    Raises a named child of ModelError (`cga_codegen.robots.errors`).
+    Warns (InertiaWarning) of inertias that no body has. Raises a named child of ModelError (`cga_codegen.robots.errors`).
     """
     file = read_urdf(path_or_text, mimic)
+    if base == "floating" and file.floats:
+        raise ModelError(f"{file.source}: base='floating' given, but the file has a floating joint of its own")
+    if base not in ("fixed", "floating"):
+        raise ModelError(f"{file.source}: base={base!r} given; 'fixed' or 'floating' is needed")
     try:
         import pinocchio
     except ImportError:
         raise ModelError("reading a URDF needs Pinocchio, which is not installed; type `pip install 'cga-robotics[urdf]'`") from None
     try:
-        model = pinocchio.buildModelFromXML(file.xml)
+        root = (pinocchio.JointModelFreeFlyer(),) if base == "floating" else ()
+        model = pinocchio.buildModelFromXML(file.xml, *root)
     except ValueError as error:
         raise BrokenFileError(f"{file.source}: Pinocchio refuses it ({error}); a URDF is needed") from None
-    inertias = _inertias(model, file.bodies)
-    joints = tuple(
-        _joint(model, index, file.kinds[joint], file.limits[joint], inertias.get(index))
-        for index, joint in enumerate(model.names)
-        if index > 0
-    )
-    return RobotModel(name or file.name, joints, _frames(model, file.source), file.source)
+    inertias = _inertias(model, file)
+    joints = tuple(_joint(model, index, file, inertias.get(index)) for index in range(1, model.njoints))
+    return RobotModel(name or file.name, joints, frames_of(model, file.source), file.source)
 
 
-def _joint(model: Any, index: int, kind: str, limits: Limits, inertia: Inertia | None) -> Joint:
-    """Pinocchio's joint `index` (0 is the universe, hence the shift by one)."""
-    import pinocchio
-
+def _joint(model: Any, index: int, file: UrdfFile, inertia: Inertia | None) -> Joint:
     name = str(model.names[index])
-    data = model.joints[index].createData()
-    model.joints[index].calc(data, pinocchio.neutral(model))
-    screw = np.asarray(data.S).reshape(6)  # linear, angular, in the joint's frame
-    axis = screw[:3] if kind == "prismatic" else screw[3:]
-    return Joint(
-        name,
-        cast(Kind, kind),
-        int(model.parents[index]) - 1,
-        _placement(model.jointPlacements[index], f"joint {name!r}"),
-        as_vector(axis, f"axis of joint {name!r}"),
-        *limits,
-        inertia,
-    )
+    if name not in file.kinds:  # the free flyer that was asked for, or the file's own
+        return pinocchio_joint(model, index, "floating", (-np.inf, np.inf, np.inf, np.inf), inertia)
+    joint = pinocchio_joint(model, index, cast(Kind, file.kinds[name]), file.limits[name], inertia)
+    leader = file.follows.get(name)
+    return joint if leader is None else follow(joint, leader.joint, leader.ratio, leader.shift)
 
 
-def _placement(pose: Any, what: str) -> Placement:
-    return Placement(as_rotation(pose.rotation, what), as_vector(pose.translation, what))
-
-
-def _inertias(model: Any, bodies: dict[str, Body]) -> dict[int, Inertia]:
+def _inertias(model: Any, file: UrdfFile) -> dict[int, Inertia]:
     """Of each joint (Pinocchio's index): the bodies it carries rigidly, merged about their common centre of mass.
 
     A body alone keeps the file's numbers to the last digit; model.inertias would round them (mass times lever over mass).
     """
     import pinocchio
 
-    carried: dict[int, list[tuple[float, Array, Array]]] = {}
+    carried: dict[int, list[Inertia]] = {}
     for frame in model.frames:
-        body = bodies.get(frame.name) if frame.type == pinocchio.FrameType.BODY else None
+        body = file.bodies.get(frame.name) if frame.type == pinocchio.FrameType.BODY else None
         if body is None or (body.mass == 0.0 and not any(body.tensor)):
             continue
         what = f"inertial of link {frame.name!r}"
-        link = _placement(frame.placement, what)
-        place = link @ Placement(as_rotation(pinocchio.rpy.rpyToMatrix(*body.rpy), what), as_vector(body.xyz, what))
-        r, (xx, xy, xz, yy, yz, zz) = np.array(place.rotation), body.tensor
-        tensor = r @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ r.T
-        carried.setdefault(int(frame.parentJoint), []).append((body.mass, np.array(place.translation), tensor))
-    return {joint: _merged(parts) for joint, parts in carried.items()}
+        _warn_of_unsound(body, f"{file.source}: {what}")
+        place = placement_of(frame.placement, what)
+        turned = Placement(as_rotation(pinocchio.rpy.rpyToMatrix(*body.rpy), what), as_vector(body.xyz, what))
+        given = Inertia(body.mass, (0.0, 0.0, 0.0), cast(Any, tuple(x + 0.0 for x in body.tensor)))
+        carried.setdefault(int(frame.parentJoint), []).append(given.placed(place @ turned))
+    return {joint: merged(parts) for joint, parts in carried.items()}
 
 
-def _merged(parts: list[tuple[float, Array, Array]]) -> Inertia:
-    """m = sum m_i, c = sum m_i c_i / m, I = sum I_i + m_i (|d|^2 1 - d d^T) with d = c_i - c (parallel axes)."""
-    mass, com, tensor = parts[0]
-    if len(parts) > 1:
-        mass = sum(m for m, _, _ in parts)
-        com = sum((m * c for m, c, _ in parts), np.zeros(3)) / mass if mass > 0.0 else com
-        tensor = np.zeros((3, 3))
-        for m, c, inertia in parts:
-            d = c - com
-            tensor = tensor + inertia + m * (np.sum(d * d) * np.eye(3) - d[:, None] * d)
-    entries = tuple(float(tensor[i, k]) + 0.0 for i, k in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)))
-    return Inertia(mass, as_vector(com, "centre of mass"), cast(Any, entries))
-
-
-def _frames(model: Any, source: str) -> tuple[Frame, ...]:
-    import pinocchio
-
-    frames: dict[str, Frame] = {}
-    for found in model.frames:
-        name = str(found.name)
-        frame = Frame(name, int(found.parentJoint) - 1, _placement(found.placement, f"frame {name!r}"))
-        if name in frames:
-            first = frames[name]
-            if (first.joint, first.placement) == (frame.joint, frame.placement):
-                continue
-            name += ":link" if found.type == pinocchio.FrameType.BODY else ":joint"
-            if name in frames:
-                raise DuplicateNameError(
-                    f"{source}: frame {name!r} stands for two places; rename one of the joints and links that share a name"
-                )
-            frame = Frame(name, frame.joint, frame.placement)
-        frames[name] = frame
-    return tuple(frames.values())
+def _warn_of_unsound(body: Body, what: str) -> None:
+    """Principal moments a <= b <= c of a body satisfy 0 <= a and c <= a + b; a body without mass has no inertia."""
+    xx, xy, xz, yy, yz, zz = body.tensor
+    low, middle, high = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    lack = max(-low, high - middle - low)
+    if body.mass == 0.0:
+        warnings.warn(f"{what}: an inertia without mass", InertiaWarning, stacklevel=2)
+    elif lack > UNSOUND * high:
+        moments = f"{low:.4g}, {middle:.4g}, {high:.4g}"
+        warnings.warn(
+            f"{what}: no body has the principal moments {moments} kg m^2 (none may exceed the sum of the others); used as given",
+            InertiaWarning,
+            stacklevel=2,
+        )

@@ -1,110 +1,41 @@
-"""A robot as screws and motors: joints with fixed placements and axes, inertias, named frames; and the chains cut from it.
+"""A robot as screws and motors: a tree of joints with fixed placements and axes, inertias, named frames; and the chains cut from it.
 
-Everything is plain tuples of floats, so that a model is immutable, compares by value, and goes to JSON and back without loss.
-A placement maps coordinates of the child frame to the parent frame: x_parent = R x_child + p (metres).
+A joint of kind "floating" stands for a moving base: its position is a motor (8 numbers), its velocity a twist in its own axes (6 numbers,
+linear first, as in Pinocchio). A joint that mimics another has no coordinate of its own: it moves by `ratio` times that joint's.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Any, Literal, cast
+from fnmatch import fnmatchcase
+from functools import cached_property
+from typing import Any, Literal
 
-import numpy as np
-from numpy.typing import NDArray
+from cga_codegen.robots.placement import Inertia as Inertia
+from cga_codegen.robots.placement import ModelError as ModelError
+from cga_codegen.robots.placement import Placement as Placement
+from cga_codegen.robots.placement import Rows3 as Rows3
+from cga_codegen.robots.placement import Vector3 as Vector3
+from cga_codegen.robots.placement import as_rotation as as_rotation
+from cga_codegen.robots.placement import as_vector as as_vector
+from cga_codegen.robots.placement import merged
 
-Vector3 = tuple[float, float, float]
-Rows3 = tuple[Vector3, Vector3, Vector3]
-Kind = Literal["revolute", "continuous", "prismatic"]
+Kind = Literal["revolute", "continuous", "prismatic", "floating"]
 
-ROTATION_TOLERANCE = 1e-9
-"""Largest entry of R^T R - 1 that a file may have; beyond it the rotation is refused, not repaired."""
-SNAP_TOLERANCE = 1e-11
-"""A whole rotation this close to a signed permutation is replaced by it (never single entries: see `as_rotation`)."""
-
+GRAVITY: Vector3 = (0.0, 0.0, -9.81)
+"""m/s^2 in the base frame (floating base: in the world)."""
 
 _LIMITS = {"lower": -math.inf, "upper": math.inf, "velocity": math.inf, "effort": math.inf}
 
 
-class ModelError(ValueError):
-    """A robot description that cannot be represented; the message names the element and what is accepted."""
-
-
-def as_vector(values: Iterable[float], what: str) -> Vector3:
-    """Three finite floats, or a ModelError that names `what`."""
-    numbers = tuple(float(x) + 0.0 for x in values)
-    if len(numbers) != 3 or not np.all(np.isfinite(numbers)):
-        raise ModelError(f"{what}: {numbers} given, three finite numbers are needed")
-    return numbers
-
-
-def as_rotation(rows: Any, what: str) -> Rows3:
-    """A checked rotation: orthonormal to ROTATION_TOLERANCE with determinant +1, else a ModelError.
-
-    A rotation within SNAP_TOLERANCE of a signed permutation matrix becomes that matrix as a whole. Snapping single entries
-    would leave SO(3) (measured: 4e-8 off on one robot), so either all nine entries are replaced or none.
-    """
-    r: NDArray[np.float64] = np.array(rows, dtype=np.float64)
-    if r.shape != (3, 3) or not np.all(np.isfinite(r)):
-        raise ModelError(f"{what}: a rotation is a finite 3x3 matrix, got shape {r.shape}")
-    defect = float(np.abs(r.T @ r - np.eye(3)).max())
-    if defect > ROTATION_TOLERANCE or np.linalg.det(r) < 0:
-        raise ModelError(f"{what}: not a rotation (R^T R - 1 is {defect:.1e}, det {np.linalg.det(r):+.3f})")
-    snapped = np.round(r)
-    if np.abs(r - snapped).max() <= SNAP_TOLERANCE and np.array_equal(snapped.T @ snapped, np.eye(3)):
-        r = snapped
-    r = r + 0.0  # -0.0 would print as "-0.0" and break byte-for-byte determinism
-    return cast(Rows3, tuple(tuple(float(x) for x in row) for row in r))
-
-
-@dataclass(frozen=True)
-class Placement:
-    """Rigid placement x_parent = rotation x_child + translation."""
-
-    rotation: Rows3 = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    translation: Vector3 = (0.0, 0.0, 0.0)
-
-    @classmethod
-    def from_matrix(cls, matrix: Any, what: str = "placement") -> Placement:
-        """From a 4x4 homogeneous matrix; refuses anything that is not a rigid motion."""
-        m = np.array(matrix, dtype=np.float64)
-        if m.shape != (4, 4) or not np.array_equal(m[3], [0.0, 0.0, 0.0, 1.0]):
-            raise ModelError(f"{what}: a 4x4 matrix with last row 0 0 0 1 is needed")
-        return cls(as_rotation(m[:3, :3], what), as_vector(m[:3, 3], what))
-
-    def matrix(self) -> NDArray[np.float64]:
-        """The 4x4 homogeneous matrix."""
-        m = np.eye(4)
-        m[:3, :3], m[:3, 3] = self.rotation, self.translation
-        return m
-
-    def __matmul__(self, other: Placement) -> Placement:
-        r, p = np.array(self.rotation), np.array(self.translation)
-        return Placement(
-            as_rotation(r @ np.array(other.rotation), "composed placement"),
-            as_vector(r @ np.array(other.translation) + p, "composed placement"),
-        )
-
-    def inverse(self) -> Placement:
-        """The placement of the parent in the child."""
-        rt = np.array(self.rotation).T
-        return Placement(as_rotation(rt, "inverse placement"), as_vector(-rt @ np.array(self.translation), "inverse placement"))
-
-
-@dataclass(frozen=True)
-class Inertia:
-    """Mass (kg), centre of mass in the joint frame (m), inertia about the centre of mass (xx, xy, xz, yy, yz, zz; kg m^2)."""
-
-    mass: float
-    com: Vector3
-    tensor: tuple[float, float, float, float, float, float]
-
-
 @dataclass(frozen=True)
 class Joint:
-    """A joint with one degree of freedom. `placement` is that of its frame in the parent joint's frame at q = 0; `axis` is a unit
-    vector in its own frame; `parent` is the index of the parent joint, -1 for the base. Limits in rad (m), rad/s (m/s), N m (N)."""
+    """A joint. `placement` is that of its frame in the parent joint's frame at q = 0; `axis` is a unit vector in its own frame (floating:
+    0 0 0); `parent` is the index of the parent joint, -1 for the base. Limits in rad (m), rad/s (m/s), N m (N). `armature` is the rotor's
+    inertia seen at the joint (kg m^2, kg). `follows` names the joint that it mimics, q = ratio q_followed (an offset is in the placement).
+    """
 
     name: str
     kind: Kind
@@ -116,6 +47,15 @@ class Joint:
     velocity: float
     effort: float
     inertia: Inertia | None = None
+    follows: str = ""
+    ratio: float = 1.0
+    armature: float = 0.0
+
+    def motion(self, q: float) -> Placement:
+        """The motion of the joint at a value of its own (rad or m); the identity for a floating joint."""
+        if self.kind == "floating":
+            return Placement()
+        return Placement.shift(self.axis, q) if self.kind == "prismatic" else Placement.turn(self.axis, q)
 
 
 @dataclass(frozen=True)
@@ -125,6 +65,51 @@ class Frame:
     name: str
     joint: int
     placement: Placement
+
+
+@dataclass(frozen=True)
+class Coordinates:
+    """What q and v of a robot or a chain hold, and how they move its joints.
+
+    names, kinds: one a coordinate, the floating base first if there is one (8 numbers of q, 6 of v), all others one number each.
+    motions: for each joint but the floating one the index among these others, and the ratio.
+    """
+
+    names: tuple[str, ...]
+    kinds: tuple[Kind, ...]
+    motions: tuple[tuple[int, float], ...]
+
+    @property
+    def floating(self) -> bool:
+        """Whether the base moves."""
+        return "floating" in self.kinds
+
+    @property
+    def nq(self) -> int:
+        """Numbers in q."""
+        return len(self.names) + (7 if self.floating else 0)
+
+    @property
+    def nv(self) -> int:
+        """Numbers in v: degrees of freedom."""
+        return len(self.names) + (5 if self.floating else 0)
+
+    @cached_property
+    def columns(self) -> tuple[tuple[int, float], ...]:
+        """For each screw (six of the floating base, then one a joint) its column among the velocities, and its ratio."""
+        first = 6 if self.floating else 0
+        return (*((k, 1.0) for k in range(first)), *((first + k, ratio) for k, ratio in self.motions))
+
+
+def coordinates(joints: Sequence[Joint]) -> Coordinates:
+    """The coordinates of joints: those of the independent ones in their order, then of joints that are followed but not among them."""
+    leaders = [joint.name for joint in joints if not joint.follows]
+    names = tuple(dict.fromkeys([*leaders, *(joint.follows for joint in joints if joint.follows)]))
+    kinds = {name: joint.kind for joint in reversed(joints) for name in (joint.follows or joint.name,)}
+    floating = bool(joints) and joints[0].kind == "floating"
+    ones = names[1:] if floating else names
+    motions = [(ones.index(j.follows or j.name), j.ratio if j.follows else 1.0) for j in joints if j.kind != "floating"]
+    return Coordinates(names, tuple(kinds[name] for name in names), tuple(motions))
 
 
 @dataclass(frozen=True)
@@ -139,20 +124,43 @@ class Chain:
     joints: tuple[Joint, ...]
     tool: Placement
 
+    @cached_property
+    def coordinates(self) -> Coordinates:
+        """What q and v hold."""
+        return coordinates(self.joints)
+
     @property
     def n(self) -> int:
-        """Number of joints."""
-        return len(self.joints)
+        """Number of velocity coordinates."""
+        return self.coordinates.nv
 
 
 @dataclass(frozen=True)
 class RobotModel:
-    """A tree of joints on a fixed base, with named frames. Parents come before children."""
+    """A tree of joints on a fixed base (or with a floating joint first), with named frames. Parents come before children.
+
+    gravity: m/s^2, in the base frame.
+    """
 
     name: str
     joints: tuple[Joint, ...]
     frames: tuple[Frame, ...]
     source: str = ""
+    gravity: Vector3 = GRAVITY
+
+    def __post_init__(self) -> None:
+        for k, joint in enumerate(self.joints):
+            if not -1 <= joint.parent < k:
+                raise ModelError(f"{self.name}: joint {joint.name!r} comes before its parent")
+            if joint.kind == "floating" and k > 0:
+                raise ModelError(f"{self.name}: joint {joint.name!r} floats; only the base may")
+            if joint.follows and not any(j.name == joint.follows and not j.follows and j.kind != "floating" for j in self.joints):
+                raise ModelError(f"{self.name}: joint {joint.name!r} mimics {joint.follows!r}; the name of an independent joint is needed")
+
+    @cached_property
+    def coordinates(self) -> Coordinates:
+        """What q and v hold."""
+        return coordinates(self.joints)
 
     def frame(self, name: str) -> Frame:
         """The frame of that name; a ModelError lists the valid names."""
@@ -182,12 +190,12 @@ class RobotModel:
         placement: Placement | None = None,
         offset: Vector3 = (0.0, 0.0, 0.0),
         name: str | None = None,
+        tool: Placement | None = None,
     ) -> Chain:
-        """The chain from `root` (default: the base) to `frame`.
+        """The chain from `root` (default: the base; with a floating base: the world) to `frame`.
 
-        placement: where the robot's base (or the root frame) stands in the world. offset: a point fixed in the end frame, which becomes
-        its origin.
-        The root must lie on the path to the frame (a chain runs outwards only).
+        placement: where the robot's base (or the root frame) stands in the world. tool: placement of the end frame in `frame`; offset: a
+        point fixed in the end frame, which becomes its origin. The root must lie on the path to the frame (a chain runs outwards only).
         """
         end = self.frame(frame)
         path = self.path(end.joint)
@@ -204,9 +212,61 @@ class RobotModel:
             joint = self.joints[index]
             joints.append(replace(joint, parent=k - 1, placement=before @ joint.placement))
             before = Placement()
-        tool = before @ end.placement  # with no joint between, `before` still holds the world and the root
-        tool = tool @ Placement(translation=as_vector(offset, "offset"))
-        return Chain(self.name, name or frame, tuple(joints), tool)
+        last = before @ end.placement  # with no joint between, `before` still holds the world and the root
+        last = last @ (tool or Placement()) @ Placement(translation=as_vector(offset, "offset"))
+        return Chain(self.name, name or frame, tuple(joints), last)
+
+    def locked(self, values: Mapping[str, float]) -> RobotModel:
+        """The robot with some joints held at a value (rad or m); what they carry is then carried by the joint before.
+
+        A key is a joint's name or a shell pattern ("left_hip_*"). Joints that mimic a locked one are locked with it. Raises ModelError for
+        a key that no joint matches, a mimicking or floating joint named outright, a value that is not finite, and when nothing is left.
+        """
+        held = self._held(values)
+        if len(held) == len(self.joints):
+            raise ModelError(f"{self.name}: every joint would be locked; leave at least one to move")
+        index: dict[int, int] = {-1: -1}
+        at: dict[int, Placement] = {-1: Placement()}
+        kept: list[Joint] = []
+        bodies: dict[int, list[Inertia]] = {}
+        for k, joint in enumerate(self.joints):
+            place = at[joint.parent] @ joint.placement
+            if k in held:
+                index[k], at[k] = index[joint.parent], place @ joint.motion(held[k])
+            else:
+                index[k], at[k] = len(kept), Placement()
+                kept.append(replace(joint, parent=index[joint.parent], placement=place))
+            if joint.inertia is not None and index[k] >= 0:
+                bodies.setdefault(index[k], []).append(joint.inertia.placed(at[k]) if k in held else joint.inertia)
+        joints = [replace(joint, inertia=merged(bodies[k]) if k in bodies else None) for k, joint in enumerate(kept)]
+        frames = [Frame(f.name, index[f.joint], at[f.joint] @ f.placement if f.joint in held else f.placement) for f in self.frames]
+        return replace(self, joints=tuple(joints), frames=tuple(frames))
+
+    def _held(self, values: Mapping[str, float]) -> dict[int, float]:
+        """Joint index -> value, for `locked`."""
+        by_name: dict[str, float] = {}
+        for key, value in values.items():
+            if not math.isfinite(value):
+                raise ModelError(f"{self.name}: joint {key!r} cannot be locked at {value}; a finite number is needed")
+            found = [j for j in self.joints if fnmatchcase(j.name, key) and (j.name == key or not (j.follows or j.kind == "floating"))]
+            if not found:
+                raise ModelError(f"{self.name} has no joint {key!r} to lock; joints: {', '.join(j.name for j in self.joints)}")
+            for joint in found:
+                if joint.follows or joint.kind == "floating":
+                    why = f"mimics {joint.follows!r}: lock that one" if joint.follows else "is the floating base: load it fixed"
+                    raise ModelError(f"{self.name}: joint {joint.name!r} cannot be locked, it {why}")
+                by_name[joint.name] = value
+        held = {}
+        for k, joint in enumerate(self.joints):
+            if (joint.follows or joint.name) in by_name:
+                held[k] = by_name[joint.follows or joint.name] * joint.ratio
+        return held
+
+    def snapped(self, tolerance: float) -> RobotModel:
+        """The robot whose placements within `tolerance` of right angles are right angles, each rotation as a whole (1.5708 for pi/2)."""
+        joints = [replace(joint, placement=joint.placement.snapped(tolerance)) for joint in self.joints]
+        frames = [Frame(frame.name, frame.joint, frame.placement.snapped(tolerance)) for frame in self.frames]
+        return replace(self, joints=tuple(joints), frames=tuple(frames))
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: what `from_json` reads. JSON has no infinity, so a missing limit becomes None."""
@@ -232,4 +292,4 @@ class RobotModel:
 
         joints = tuple(joint(d) for d in data["joints"])
         frames = tuple(Frame(f["name"], f["joint"], placement(f["placement"], f["name"])) for f in data["frames"])
-        return cls(data["name"], joints, frames, data.get("source", ""))
+        return cls(data["name"], joints, frames, data["source"], as_vector(data["gravity"], "gravity"))

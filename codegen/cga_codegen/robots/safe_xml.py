@@ -25,7 +25,7 @@ def read_xml(path_or_text: str | os.PathLike[str], what: str) -> tuple[ET.Elemen
         if len(text) > MAX_BYTES:
             raise UnsafeFileError(f"{source}: {len(text)} characters given, at most {MAX_BYTES} are read")
     else:
-        text, source = _file_text(path_or_text, what)
+        text, source = file_text(path_or_text, what)
     text = text.lstrip("\ufeff \t\r\n")  # blanks before <?xml are an error of form only
     _refuse_document_type(text, source, what)
     try:
@@ -34,7 +34,7 @@ def read_xml(path_or_text: str | os.PathLike[str], what: str) -> tuple[ET.Elemen
         raise BrokenFileError(f"{source}: not well-formed XML ({error}); a {what} is needed") from None
 
 
-def _file_text(given: str | os.PathLike[str], what: str) -> tuple[str, str]:
+def file_text(given: str | os.PathLike[str], what: str) -> tuple[str, str]:
     needed = f"a path to a {what} file is needed"
     if not os.fspath(given):
         raise UnreadableFileError(f"an empty path was given; {needed}")
@@ -72,3 +72,17 @@ def _refuse_document_type(text: str, source: str, what: str) -> None:
         position = match.end()
     if text.startswith("<!", position):
         raise UnsafeFileError(f"{source}: a document type declaration (DOCTYPE, entities) is given; remove it, a {what} needs none")
+
+
+def holds_mjcf(path: str | os.PathLike[str]) -> bool:
+    """Whether the root element of a readable XML file is MuJoCo's; whatever else is wrong with it, its reader says."""
+    try:
+        with open(path, "rb") as file:
+            head = file.read(65536).decode("latin-1").replace("\0", "")
+    except (OSError, ValueError):
+        return False
+    position = 0
+    head = head.lstrip("\ufeff\xef\xbb\xbf\xff\xfe \t\r\n")
+    while match := _BEFORE_ROOT.match(head, position):
+        position = match.end()
+    return head.startswith("<mujoco", position)

@@ -25,6 +25,7 @@ from cga_codegen.robots.errors import (
     UnsupportedJointError,
 )
 from cga_codegen.robots.safe_xml import read_xml
+from cga_codegen.robots.urdf_tree import Follow, check_base, check_tree, leaders
 
 MAX_LINKS = 1000
 """Pinocchio descends link by link on the C stack (10,000 links in a row are a segmentation fault) and needs quadratic time."""
@@ -33,7 +34,7 @@ LARGEST = 1e50
 MOVING = ("revolute", "continuous", "prismatic")
 
 Limits = tuple[float, float, float, float]
-Mimic = Literal["refuse", "independent"]
+Mimic = Literal["follow", "independent"]
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Body:
 @dataclass(frozen=True)
 class UrdfFile:
     """A checked robot description: `xml` is what Pinocchio may read (the tree); `kinds` and `limits` (lower, upper, velocity, effort) are
-    those of the moving joints, `bodies` those of the links that have an inertial."""
+    those of the moving joints, `bodies` those of the links that have an inertial, `follows` those of the mimicking joints."""
 
     name: str
     source: str
@@ -57,9 +58,11 @@ class UrdfFile:
     kinds: dict[str, str]
     limits: dict[str, Limits]
     bodies: dict[str, Body]
+    follows: dict[str, Follow]
+    floats: bool
 
 
-def read_urdf(path_or_text: str | os.PathLike[str], mimic: Mimic = "refuse") -> UrdfFile:
+def read_urdf(path_or_text: str | os.PathLike[str], mimic: Mimic = "follow") -> UrdfFile:
     """Read and check a URDF given as a path, or as its text (a string whose first character that is not blank is "<").
 
     Raises a named child of ModelError (see `cga_codegen.robots.errors`).
@@ -91,7 +94,9 @@ class _Check:
         parts = [f"<link name={quoteattr(name)}/>" for name in bodies]
         kinds: dict[str, str] = {}
         limits: dict[str, Limits] = {}
+        follows: dict[str, Follow] = {}
         ends: dict[str, tuple[str, str]] = {}
+        floating: list[str] = []
         for joint in joints:
             key = str(joint.get("name"))
             label = f"{self.where}: joint {key!r}"
@@ -99,12 +104,19 @@ class _Check:
             ends[key] = self.end(joint, "parent", link_names, label), self.end(joint, "child", link_names, label)
             if kind in MOVING:
                 kinds[key], limits[key] = kind, self.limits(joint, kind, label)
+                mimic = self.only(joint, "mimic", label)
+                if mimic is not None and self.mimic == "follow":
+                    follows[key] = self.follow(mimic, label)
             parts.append(self.joint(joint, kind, ends[key], label))
-        self.tree(link_names, ends)
+            if kind == "floating":
+                floating.append(key)
+        check_tree(self.where, link_names, ends)
+        check_base(self.where, floating, ends)
         if "universe" in joint_names:
             raise DuplicateNameError(f"{self.where}: a joint is called 'universe', which is the fixed world; another name is needed")
         xml = f"<robot name={quoteattr(title)}>\n" + "\n".join(parts) + "\n</robot>\n"
-        return UrdfFile(title, self.where, xml, kinds, limits, {name: body for name, body in bodies.items() if body is not None})
+        given = {name: body for name, body in bodies.items() if body is not None}
+        return UrdfFile(title, self.where, xml, kinds, limits, given, leaders(self.where, follows, kinds), bool(floating))
 
     def names(self, elements: Iterable[ET.Element]) -> set[str]:
         seen: set[str] = set()
@@ -174,15 +186,16 @@ class _Check:
 
     def kind(self, joint: ET.Element, label: str) -> str:
         kind = joint.get("type", "")
-        if kind not in (*MOVING, "fixed"):
-            raise UnsupportedJointError(f"{label} is of type {kind!r}; revolute, continuous, prismatic and fixed are read")
-        mimic = joint.find("mimic")
-        if mimic is not None and self.mimic == "refuse":
-            raise UnsupportedJointError(
-                f"{label} mimics {mimic.get('joint')!r}, which is not modelled; delete its <mimic>, make it fixed, "
-                "or ask for mimic='independent'"
-            )
+        if kind not in (*MOVING, "fixed", "floating"):
+            raise UnsupportedJointError(f"{label} is of type {kind!r}; revolute, continuous, prismatic, fixed and floating are read")
         return kind
+
+    def follow(self, mimic: ET.Element, label: str) -> Follow:
+        leader = mimic.get("joint")
+        if not leader:
+            raise BrokenFileError(f"{label}: its <mimic> names no joint; the name of a moving joint is needed")
+        ratio = self.number(mimic, "multiplier", f"{label}: mimic", 1.0, LARGEST)
+        return Follow(leader, ratio, self.number(mimic, "offset", f"{label}: mimic", 0.0, LARGEST))
 
     def end(self, joint: ET.Element, side: str, links: set[str], label: str) -> str:
         element = self.only(joint, side, label)
@@ -228,29 +241,6 @@ class _Check:
             f'<joint name={quoteattr(str(joint.get("name")))} type="{kind}"><parent link={quoteattr(ends[0])}/>'
             f'<child link={quoteattr(ends[1])}/><origin xyz="{_decimals(xyz)}" rpy="{_decimals(rpy)}"/>{motion}</joint>'
         )
-
-    def tree(self, links: set[str], ends: dict[str, tuple[str, str]]) -> None:
-        above: dict[str, str] = {}
-        for name, (_, child) in ends.items():
-            if child in above:
-                raise TreeError(f"{self.where}: link {child!r} is the child of joints {above[child]!r} and {name!r}; a tree has no loops")
-            above[child] = name
-        roots = sorted(links - above.keys())
-        if len(roots) > 1:
-            shown = ", ".join(map(repr, roots[:4])) + (", ..." if len(roots) > 4 else "")
-            raise TreeError(f"{self.where}: {len(roots)} links have no parent joint ({shown}); exactly one root is needed")
-        below: dict[str, list[str]] = {}
-        for parent, child in ends.values():
-            below.setdefault(parent, []).append(child)
-        reached, front = set(roots), list(roots)
-        while front:
-            front = [child for link in front for child in below.get(link, [])]
-            reached.update(front)
-        if lost := sorted(links - reached):
-            raise TreeError(f"{self.where}: link {lost[0]!r} hangs in a loop of joints; every link must be reached from one root")
-        if "universe" in links and roots != ["universe"]:
-            raise DuplicateNameError(f"{self.where}: link 'universe' is not the root, but the fixed world is so called; rename it")
-
 
 def _decimals(values: Iterable[float]) -> str:
     return " ".join(repr(x) for x in values)

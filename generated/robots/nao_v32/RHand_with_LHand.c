@@ -18,6 +18,12 @@ static inline int cga_not_finite(const double *x, int n)
     return zero != 0.0;
 }
 
+#if defined(__GNUC__)
+#define CGA_NOINLINE __attribute__((noinline))
+#else
+#define CGA_NOINLINE
+#endif
+
 /* T is the number type of the bodies, K(x) a constant of that type. */
 #ifndef T
 #define T double

@@ -1,0 +1,68 @@
+"""Loads robots: by bundled name, from URDF and MJCF files, from models of Pinocchio and MuJoCo, and from Denavit-Hartenberg tables."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from cga_runtime import descriptions
+from cga_runtime.descriptions import Options
+from cga_runtime.errors import UnknownNameError
+from cga_runtime.kernels import generated_folder, library
+from cga_runtime.robot import Robot
+
+_ENDINGS = (".urdf", ".xml", ".mjcf", ".json")
+
+
+def bundled_robots(folder: str | Path | None = None) -> list[str]:
+    """Names of the robots that come with the package, or whose kernels lie in a generated folder."""
+    if folder is not None:
+        return sorted(library(Path(folder)).manifest["robots"])
+    return sorted({*library(generated_folder()).manifest["robots"], *descriptions.bundled_files()})
+
+
+def load_robot(
+    source: Any,
+    folder: str | Path | None = None,
+    *,
+    base: str = "fixed",
+    lock: Mapping[str, float] | None = None,
+    mimic: str = "follow",
+    gravity: Sequence[float] | None = None,
+    snap: float | None = None,
+) -> Robot:
+    """A robot by bundled name, by path to a URDF or MJCF, from a pinocchio.Model or a mujoco.MjModel, from a Denavit-Hartenberg table
+    (a dict, or a path to it as .json), or by name from a generated `folder` (made by `cga generate FILE -o DIR`).
+
+    base: of a URDF, "fixed" or "floating"; in MJCF and models the file says. lock: joints held at a value (rad or m), by name or shell
+    pattern, {"left_hip_*": 0.0}; what they carry is then carried by the joint before. mimic: "follow" (a mimicking joint has no coordinate
+    of its own), or "independent". gravity: m/s^2 in the base frame, default: the file's, or (0, 0, -9.81). snap: placements this close to
+    right angles become right angles, each rotation as a whole; default: none, files are taken as they are (1.5708 is not pi/2).
+
+    Raises UnknownNameError (listing the names), RobotFileError for what cannot be used, StaleKernelError for damaged kernels,
+    MissingExtraError where Pinocchio or MuJoCo is needed and not installed.
+    """
+    options = Options(base, tuple(sorted((lock or {}).items())), mimic, None if gravity is None else tuple(gravity), snap)
+    if not isinstance(source, str | os.PathLike):
+        return Robot(descriptions.describe(source, options))
+    home = library(Path(folder) if folder is not None else generated_folder())
+    known = home.manifest["robots"]
+    if str(source) in known and (options.keeps_the_base or folder is not None):
+        record = known[str(source)]
+        description = home.read(record["description"])
+        return Robot(description, home, record) if options == Options() else Robot(descriptions.changed(description, options))
+    files = descriptions.bundled_files() if folder is None else {}
+    if str(source) in files:
+        return Robot(descriptions.read_robot(files[str(source)], options, str(source)))
+    if _names_a_file(Path(source)):
+        return Robot(descriptions.read_robot(Path(source), options))
+    raise UnknownNameError("robot", str(source), sorted({*known, *files}), "Or name a URDF or MJCF file")
+
+
+def _names_a_file(path: Path) -> bool:
+    try:
+        return path.suffix.lower() in _ENDINGS or path.exists()
+    except (OSError, ValueError):  # too long for a file name, or a zero character in it
+        return False
