@@ -6,6 +6,17 @@
 """
 
 from cga_runtime.analysis.closed_chain import ClosedChain as ClosedChain
+from cga_runtime.configurations import from_mujoco as from_mujoco
+from cga_runtime.configurations import from_pinocchio as from_pinocchio
+from cga_runtime.configurations import to_mujoco as to_mujoco
+from cga_runtime.configurations import to_pinocchio as to_pinocchio
+from cga_runtime.conventions import adjoint as adjoint
+from cga_runtime.conventions import coadjoint as coadjoint
+from cga_runtime.conventions import convert_twist as convert_twist
+from cga_runtime.conventions import convert_wrench as convert_wrench
+from cga_runtime.conventions import jacobian_in_frame as jacobian_in_frame
+from cga_runtime.conventions import twist_in_frame as twist_in_frame
+from cga_runtime.conventions import wrench_in_frame as wrench_in_frame
 from cga_runtime.elements import Circle as Circle
 from cga_runtime.elements import Line as Line
 from cga_runtime.elements import Plane as Plane
@@ -30,9 +41,23 @@ from cga_runtime.errors import WrongSizeError as WrongSizeError
 from cga_runtime.loading import bundled_robots as bundled_robots
 from cga_runtime.loading import load_robot as load_robot
 from cga_runtime.motors import Motor as Motor
+from cga_runtime.multivectors import Multivector as Multivector
+from cga_runtime.quaternions import convert_quaternion as convert_quaternion
+from cga_runtime.quaternions import dual_quaternion_from_motor as dual_quaternion_from_motor
+from cga_runtime.quaternions import matrix_from_quaternion as matrix_from_quaternion
+from cga_runtime.quaternions import motor_from_dual_quaternion as motor_from_dual_quaternion
+from cga_runtime.quaternions import motor_from_position_quaternion as motor_from_position_quaternion
+from cga_runtime.quaternions import position_quaternion_from_motor as position_quaternion_from_motor
+from cga_runtime.quaternions import quaternion_from_matrix as quaternion_from_matrix
 from cga_runtime.robot import Chain as Chain
 from cga_runtime.robot import Robot as Robot
+from cga_runtime.solve.inverse_kinematics import Solutions as Solutions
+from cga_runtime.solve.inverse_kinematics import inverse_kinematics as inverse_kinematics
 from cga_runtime.solve.reaching import Solution as Solution
 from cga_runtime.solve.reaching import reach as reach
+from cga_runtime.versors import Dilator as Dilator
+from cga_runtime.versors import Rotor as Rotor
+from cga_runtime.versors import Similarity as Similarity
+from cga_runtime.versors import Translator as Translator
 
 __version__ = "0.1.0"

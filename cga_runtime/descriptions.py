@@ -22,6 +22,7 @@ class Options:
     mimic: str = "follow"
     gravity: tuple[float, ...] | None = None
     snap: float | None = None
+    ignore_constraints: bool = False
 
     @property
     def keeps_the_base(self) -> bool:
@@ -44,10 +45,12 @@ def read_robot(file: Path, options: Options = DEFAULT, name: str | None = None) 
 
     def read() -> Any:
         if file.suffix.lower() == ".json":
+            require_urdf_for(options, str(file))
             return read_table(file)
         if holds_mjcf(file):
+            require_urdf_for(options, str(file))
             _require("mujoco", "reading an MJCF", "mujoco", "mujoco")
-            return load_mjcf(file, name)
+            return load_mjcf(file, name, ignore_constraints=options.ignore_constraints)
         require_pinocchio()
         return load_urdf(file, name, base=options.base, mimic=options.mimic)  # type: ignore[arg-type]  # checked there
 
@@ -64,9 +67,16 @@ def describe(source: Any, options: Options) -> str:
     kind = type(source)
     for (package, name), reader in readers.items():
         if kind.__name__ == name and kind.__module__.split(".")[0].removesuffix("_pywrap_default") == package:
+            require_urdf_for(options, f"a {kind.__name__}")
             return _described(partial(reader, source), options)
     accepted = "a bundled name, a path, a pinocchio.Model, a mujoco.MjModel or a table (dict)"
     raise RobotFileError(f"a {kind.__module__}.{kind.__qualname__} was given; {accepted} is needed")
+
+
+def require_urdf_for(options: Options, source: str) -> None:
+    """Raises RobotFileError where the base or the mimicking of joints would be chosen, and not the source a URDF."""
+    if not options.keeps_the_base:
+        raise RobotFileError(f"{source}: base={options.base!r} and mimic={options.mimic!r} given; only the reading of a URDF has a choice")
 
 
 def changed(description: str, options: Options) -> str:

@@ -92,10 +92,11 @@ class Layout:
     def check_base(self, q: Array) -> None:
         """Raises DegenerateError where the motor of a floating base is not one."""
         a, b12, b13, b23, t1, t2, t3, t123 = np.moveaxis(q[..., :BASE], -1, 0)
-        unit = np.abs(a * a + b12 * b12 + b13 * b13 + b23 * b23 - 1.0)
-        mixed = np.abs(a * t123 - b12 * t3 + b13 * t2 - b23 * t1) / (1.0 + np.abs(q[..., 4:BASE]).max(axis=-1, initial=0.0))
-        off = max(unit.max(initial=0.0), mixed.max(initial=0.0))
-        if not off <= RIGID:  # NaN too: it is named elsewhere
+        with np.errstate(over="ignore", invalid="ignore"):
+            unit = np.abs(a * a + b12 * b12 + b13 * b13 + b23 * b23 - 1.0)
+            mixed = np.abs(a * t123 - b12 * t3 + b13 * t2 - b23 * t1) / (1.0 + np.abs(q[..., 4:BASE]).max(axis=-1, initial=0.0))
+        off = float(np.fmax(unit.max(initial=0.0), mixed.max(initial=0.0)))
+        if off > RIGID and np.isfinite(q).all():  # what is not finite is named elsewhere
             raise DegenerateError(
                 f"q: its first 8 numbers are no motor of {self.names[0]!r}, M ~M is off by {off:.1e} (at most {RIGID:.0e}); "
                 "Motor.from_pose makes one from a matrix"

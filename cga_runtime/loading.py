@@ -9,8 +9,8 @@ from typing import Any
 
 from cga_runtime import descriptions
 from cga_runtime.descriptions import Options
-from cga_runtime.errors import UnknownNameError
-from cga_runtime.kernels import generated_folder, library
+from cga_runtime.errors import UnknownNameError, WrongSizeError
+from cga_runtime.kernels import finite, generated_folder, library
 from cga_runtime.robot import Robot
 
 _ENDINGS = (".urdf", ".xml", ".mjcf", ".json")
@@ -41,10 +41,10 @@ def load_robot(
     of its own), or "independent". gravity: m/s^2 in the base frame, default: the file's, or (0, 0, -9.81). snap: placements this close to
     right angles become right angles, each rotation as a whole; default: none, files are taken as they are (1.5708 is not pi/2).
 
-    Raises UnknownNameError (listing the names), RobotFileError for what cannot be used, StaleKernelError for damaged kernels,
-    MissingExtraError where Pinocchio or MuJoCo is needed and not installed.
+    Raises UnknownNameError (listing the names), RobotFileError for what cannot be used, WrongSizeError and NotFiniteError for options that
+    are no numbers, StaleKernelError for damaged kernels, MissingExtraError where Pinocchio or MuJoCo is needed and not installed.
     """
-    options = Options(base, tuple(sorted((lock or {}).items())), mimic, None if gravity is None else tuple(gravity), snap)
+    options = _options(base, lock, mimic, gravity, snap)
     if not isinstance(source, str | os.PathLike):
         return Robot(descriptions.describe(source, options))
     home = library(Path(folder) if folder is not None else generated_folder())
@@ -52,6 +52,7 @@ def load_robot(
     if str(source) in known and (options.keeps_the_base or folder is not None):
         record = known[str(source)]
         description = home.read(record["description"])
+        descriptions.require_urdf_for(options, str(source))
         return Robot(description, home, record) if options == Options() else Robot(descriptions.changed(description, options))
     files = descriptions.bundled_files() if folder is None else {}
     if str(source) in files:
@@ -59,6 +60,29 @@ def load_robot(
     if _names_a_file(Path(source)):
         return Robot(descriptions.read_robot(Path(source), options))
     raise UnknownNameError("robot", str(source), sorted({*known, *files}), "Or name a URDF or MJCF file")
+
+
+def _options(
+    base: str, lock: Mapping[str, float] | None, mimic: str, gravity: Sequence[float] | None, snap: float | None
+) -> Options:
+    """The options, checked."""
+    for what, given, known in (("base", base, ("fixed", "floating")), ("mimic", mimic, ("follow", "independent"))):
+        if given not in known:
+            raise UnknownNameError(what, given, known)
+    if lock is not None and not isinstance(lock, Mapping):
+        raise WrongSizeError(f"lock: a {type(lock).__name__} was given, a mapping of joint names to values is needed")
+    held = sorted((str(name), _numbers(value, f"lock of {name!r}", ())[0]) for name, value in (lock or {}).items())
+    near = None if snap is None else _numbers(snap, "snap", ())[0]
+    if near is not None and near < 0.0:
+        raise WrongSizeError(f"snap: {near:g} given, zero or a positive number is needed")
+    return Options(base, tuple(held), mimic, None if gravity is None else _numbers(gravity, "gravity", (3,)), near)
+
+
+def _numbers(values: Any, what: str, shape: tuple[int, ...]) -> tuple[float, ...]:
+    array = finite(values, what)
+    if array.shape != shape:
+        raise WrongSizeError(f"{what}: shape {array.shape} given, {shape} needed")
+    return tuple(float(x) for x in array.ravel())
 
 
 def _names_a_file(path: Path) -> bool:

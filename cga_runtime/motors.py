@@ -10,11 +10,13 @@ from numpy.typing import ArrayLike
 
 from cga_runtime.coordinates import Array, norm, parts, read, stack, times, unit
 from cga_runtime.errors import DegenerateError
+from cga_runtime.exp_log import BLADES
 from cga_runtime.kernels import products
+from cga_runtime.multivectors import reverse_signs
 from cga_runtime.versor_group import RIGID as RIGID
-from cga_runtime.versor_group import Versor, reverse_signs
+from cga_runtime.versor_group import Versor
 
-REVERSE = reverse_signs("motor")
+REVERSE = reverse_signs(BLADES["motor"])
 """Signs of ~M in the components of M."""
 
 

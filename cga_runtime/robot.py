@@ -31,7 +31,10 @@ _FRAMED = ("jacobian", "jacobian_derivative", "hessian")
 
 
 class Robot(WholeBody):
-    """A robot's description, the kernels of the whole, and the chains cut from it. Made by `load_robot`."""
+    """A robot's description, the kernels of the whole, and the chains cut from it. Made by `load_robot`.
+
+    tips: the last frame on each joint that carries no other: the natural ends of chains.
+    """
 
     def __init__(self, description: str, home: Library | None = None, record: dict[str, Any] | None = None) -> None:
         self._description, self._home, self._record = description, home, record
@@ -43,6 +46,9 @@ class Robot(WholeBody):
         self.layout = Layout(tuple(j["name"] for j in joints), tuple(j["kind"] for j in joints), ())
         self.joint_names, self.joint_kinds = self.layout.names, self.layout.kinds
         self.frame_names: tuple[str, ...] = tuple(f["name"] for f in data["frames"])
+        carrying = {joint["parent"] for joint in data["joints"]}
+        last = {frame["joint"]: frame["name"] for frame in data["frames"]}
+        self.tips: tuple[str, ...] = tuple(last.get(k, j["name"]) for k, j in enumerate(data["joints"]) if k not in carrying)
         self.lower, self.upper = (_bounds(joints, key, BASE, sign) for key, sign in (("lower", -math.inf), ("upper", math.inf)))
         self.velocity_limit, self.effort_limit = (_bounds(joints, key, 6, math.inf) for key in ("velocity", "effort"))
 

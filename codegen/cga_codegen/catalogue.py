@@ -39,6 +39,15 @@ from cga_codegen.robots.model import Chain, Coordinates, ModelError, RobotModel
 Subject = Chain | Loop | Tree | None
 
 
+class MassError(ModelError):
+    """A kernel that a robot has not, because it would divide by a mass or an inertia that is zero whatever the configuration."""
+
+    def __init__(self, kernel: str) -> None:
+        self.kernel = kernel
+        lacks = "nothing that moves has mass" if kernel.startswith("center_of_mass") else "the inertia that a joint carries is zero"
+        super().__init__(f"{kernel} does not exist: {lacks}, and it would be divided by")
+
+
 @dataclass(frozen=True)
 class Size:
     """What shapes depend on: velocities, joints that do not float, frames."""
@@ -187,7 +196,7 @@ def _made(kernel: Kernel, function: Callable[..., list[Any]], subject: Subject) 
     try:
         values = _apply(function, subject, {port.name: symbol.elements() for port, symbol in inputs})
     except ZeroDivisionError:
-        raise ModelError(f"{kernel.name} does not exist: a joint carries no inertia, so that the mass matrix cannot be inverted") from None
+        raise MassError(kernel.name) from None
     expression = casadi.densify(casadi.vertcat(*[casadi.SX(v) for v in values]))
     raw = casadi.Function("f", [symbol for _, symbol in inputs], [expression])
     moves = (casadi.OP_INPUT, casadi.OP_OUTPUT, casadi.OP_CONST)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from cga_codegen import __version__
-from cga_codegen.catalogue import TREE_KERNELS, chain_unit, identifier, loop_unit, screws_unit, tree_unit
+from cga_codegen.catalogue import TREE_KERNELS, MassError, chain_unit, identifier, loop_unit, screws_unit, tree_unit
 from cga_codegen.emit.manifest import UnitRecord, manifest_text, write_folder
 from cga_codegen.emit.print_products import product_files
 from cga_codegen.kernels.closed_chain import Loop
@@ -21,7 +21,8 @@ from cga_codegen.robots.model import ModelError, RobotModel
 
 @dataclass(frozen=True)
 class Selection:
-    """Which kernels of a robot lie in a generated folder: chains to frames, closed chains of two of them, and kernels of the whole."""
+    """Which kernels of a robot lie in a generated folder: chains to frames, closed chains of two of them, and kernels of the whole (those
+    that divide by an inertia which the robot lacks are left out)."""
 
     chains: Sequence[str]
     loops: Sequence[tuple[str, str]] = ()
@@ -73,7 +74,12 @@ def generate_robot(model: RobotModel, selection: Selection, say: Progress) -> tu
     makers += [partial(loop_unit, _loop(model, *pair)) for pair in selection.loops]
     makers += [partial(tree_unit, model, name) for name in selection.tree]
     for make in makers:
-        texts, unit = make()
+        try:
+            texts, unit = make()
+        except MassError as error:
+            say(f"{model.name}: left out: {error}")
+            record["tree"] = {name: path for name, path in record["tree"].items() if name != error.kernel}
+            continue
         say(f"{unit.title}: {len(unit.kernels)} kernels, {sum(k.counts.total for k in unit.kernels)} operations")
         if known := sorted(files.keys() & texts.keys()):
             raise ModelError(f"{model.name}: two chains or loops would be called {known[0]}; generate them into separate folders")

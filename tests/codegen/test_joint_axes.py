@@ -7,8 +7,8 @@ import pytest
 
 from cga_codegen.algebra.blade_types import MOTOR, POINT
 from cga_codegen.algebra.multivector import Multivector
-from cga_codegen.kernels.walk import inward, outward
 from cga_codegen.kernels.versors import motor
+from cga_codegen.kernels.walk import inward, outward
 from cga_codegen.robots.model import Chain, Joint, Placement
 
 GRID = [np.array(axis) / np.linalg.norm(axis) for axis in product((-1.0, 0.0, 1.0), repeat=3) if any(axis)]

@@ -13,7 +13,7 @@ import pytest
 
 import cga_runtime as cga
 from cga_runtime.descriptions import bundled_file
-from cga_runtime.solve.inverse_kinematics import inverse_kinematics
+from cga_runtime.solve.inverse_kinematics import Solutions, inverse_kinematics
 
 SAMPLES = 2000
 FLANGE = "panda_link8"
@@ -32,7 +32,7 @@ def drawn(panda) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.fixture(scope="module")
-def plain(panda, drawn) -> cga.Solutions:
+def plain(panda, drawn) -> Solutions:
     """What the paper measures."""
     return inverse_kinematics(panda, cga.Motor(panda.motor(drawn[0])), drawn[1], method="gauss_newton")
 

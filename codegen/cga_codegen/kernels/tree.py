@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from cga_codegen.kernels.axes import of_motor, to_axis
+from cga_codegen.kernels.axes import STANDING, of_motor, to_axis
 from cga_codegen.kernels.vectors import Scalar, Vector, combine, dot, plus, times
 from cga_codegen.robots.model import Coordinates, Frame, Inertia, Joint, Placement, RobotModel
 
@@ -172,4 +172,5 @@ def minus_gravity(tree: Tree, base: Vector | None) -> list[Scalar]:
     up = [exact(-x) for x in tree.gravity]
     if base is None or not tree.floating:
         return up
-    return [dot(column, up) for column in of_motor(base).columns]
+    stands = STANDING.place(tree.bodies[0].placement).join(of_motor(base))
+    return [dot(column, up) for column in stands.columns]

@@ -165,6 +165,8 @@ def load_table(table: Any) -> RobotModel:
             wanted: tuple[type, ...] = (str,) if keys[key] in ("str", "RowKind") else (int, float)
             if not isinstance(value, wanted) or isinstance(value, bool):
                 raise BadNumberError(f"{label}: {key} is {value!r}; a {'word' if wanted == (str,) else 'number'} is needed")
+            if isinstance(value, int) and abs(value) > 2**53:  # float() would round it, or overflow
+                raise BadNumberError(f"{label}: {key} is an integer of {value.bit_length()} bits; at most 53 are read")
         rows.append(kind(**row))
     base = None if table.get("base") is None else Placement.from_matrix(table["base"], "DH table: base")
     return load(rows, str(table["name"]), base)
@@ -174,9 +176,10 @@ def read_table(path: str | os.PathLike[str]) -> RobotModel:
     """The robot of a table in a JSON file. Raises children of ModelError."""
     text, source = file_text(path, "DH table")
     try:
-        return replace(load_table(json.loads(text)), source=source)
-    except (json.JSONDecodeError, RecursionError) as error:
+        table = json.loads(text)
+    except (ValueError, RecursionError) as error:  # ValueError: also an integer of thousands of digits
         raise BrokenFileError(f"{source}: not JSON ({error}); a DH table is needed") from None
+    return replace(load_table(table), source=source)
 
 
 def nao_mdh(version: str = "V50") -> RobotModel:

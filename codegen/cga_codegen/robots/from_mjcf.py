@@ -23,7 +23,10 @@ from cga_codegen.robots.model import ModelError, RobotModel
 
 MAX_BODIES = 1000
 """MuJoCo's compiler needs quadratic time in the length of a row of bodies."""
-_NAMED = {"repeated name": DuplicateNameError, "in attribute": BadNumberError}
+_NAMED = {
+    "repeated name": DuplicateNameError,
+    **dict.fromkeys(("in attribute", "does not have enough data", "has too much data"), BadNumberError),
+}
 """Words in MuJoCo's messages that have an error of their own here."""
 _ONE_AT_A_TIME = threading.Lock()
 
@@ -46,52 +49,55 @@ def load_mjcf(
     """
     file = read_mjcf(path_or_text, folder)
     mujoco = import_mujoco()
+    refusal: Exception | None = None
     with _quiet(mujoco) as said:
         try:
             model = _compiled(mujoco, file)
         except ModelError:
             raise
         except (ValueError, mujoco.FatalError) as error:
-            words = re.sub(r",? line \d+", "", " ".join(str(error).split()))  # lines of our text, not of the file
-            named = next((kind for part, kind in _NAMED.items() if part in words), BrokenFileError)
-            raise named(f"{file.source}: MuJoCo refuses it ({words[:300]}); an MJCF that it can compile is needed") from None
+            refusal = error
     if any("NaN" in words for words in said):
         raise BadNumberError(f"{file.source}: a number is given as nan; finite numbers are needed")
+    if refusal is not None:
+        words = re.sub(r",? line \d+", "", " ".join(str(refusal).split()))  # lines of our text, not of the file
+        named = next((kind for part, kind in _NAMED.items() if part in words), BrokenFileError)
+        raise named(f"{file.source}: MuJoCo refuses it ({words[:300]}); an MJCF that it can compile is needed")
     return load_mjmodel(model, name or file.name, ignore_constraints=ignore_constraints, source=file.source)
 
 
 def _compiled(mujoco: Any, file: MjcfFile) -> Any:
     """The MjModel, without its meshes."""
-    spec = mujoco.MjSpec.from_string(file.xml, include=file.models)
+    spec = mujoco.MjSpec.from_string(file.xml, **({"include": file.models} if file.models else {}))
     if len(spec.bodies) > MAX_BODIES:
         raise UnsafeFileError(f"{file.source}: {len(spec.bodies)} bodies given, at most {MAX_BODIES} are read")
     ball = mujoco.mjtGeom.mjGEOM_SPHERE
     of_files = (mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF, mujoco.mjtGeom.mjGEOM_HFIELD)
-    for geom in spec.geoms:
-        if geom.type in of_files or geom.meshname or geom.hfieldname:
-            _refuse_inertia_of_mesh(mujoco, spec, geom, file.source)
-            geom.type, geom.size, geom.mass, geom.density = ball, [1.0, 1.0, 1.0], 0.0, 0.0
-            geom.meshname = geom.hfieldname = ""
+    front = [(spec.worldbody, False)]  # bodies, and whether they move
+    while front:
+        body, moves = front.pop()
+        front.extend((child, moves or len(child.joints) > 0) for child in body.bodies)
+        for geom in body.geoms:
+            if geom.type in of_files or geom.meshname or geom.hfieldname:
+                if moves and geom.type != mujoco.mjtGeom.mjGEOM_HFIELD:
+                    _refuse_inertia_of_mesh(mujoco, spec, body, geom, file.source)
+                geom.type, geom.size, geom.mass, geom.density = ball, [1.0, 1.0, 1.0], 0.0, 0.0
+                geom.meshname = geom.hfieldname = ""
     for site in spec.sites:
         if site.type in of_files:
             site.type, site.size = ball, [1.0, 1.0, 1.0]
-            if hasattr(site, "meshname"):
+            if hasattr(site, "meshname"):  # older MuJoCos have no sites of this kind
                 site.meshname = ""
     return spec.compile()
 
 
-def _refuse_inertia_of_mesh(mujoco: Any, spec: Any, geom: Any, source: str) -> None:
-    """A shape counts unless its body rests, has an <inertial>, or the shape has no mass or a group that is not counted."""
-    body, options = geom.parent, getattr(geom, "compiler", spec.compiler)  # an attached model may have options of its own
+def _refuse_inertia_of_mesh(mujoco: Any, spec: Any, body: Any, geom: Any, source: str) -> None:
+    """A shape of a moving body counts unless the body has an <inertial>, or the shape no mass or a group that is not counted."""
+    options = getattr(geom, "compiler", spec.compiler)  # an attached model may have options of its own
     low, high = options.inertiagrouprange
     massless = geom.mass == 0.0 or (np.isnan(geom.mass) and geom.density == 0.0)
     given = body.explicitinertial and options.inertiafromgeom != mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_TRUE
-    if given or massless or not low <= geom.group <= high or geom.type == mujoco.mjtGeom.mjGEOM_HFIELD:
-        return
-    above = body
-    while above is not None and not above.joints:
-        above = above.parent
-    if above is not None:
+    if not (given or massless or not low <= geom.group <= high):
         raise BrokenFileError(
             f"{source}: the inertia of body {body.name!r} would come from mesh {geom.meshname!r}, which is not read; give the body an "
             "<inertial> (MuJoCo writes them with saveinertial), or give the compiled mujoco.MjModel"

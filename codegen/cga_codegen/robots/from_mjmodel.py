@@ -90,7 +90,7 @@ class _Reader:
         self.bodies = self.joints.unique("BODY", model.nbody, "body")
 
     def check_numbers(self) -> None:
-        m, turning = self.model, (self.joints.hinge, self.joints.slide)
+        m, moved = self.model, (self.joints.hinge, self.joints.slide)
         names = {"body": self.bodies, "jnt": self.joints.names}
         for word, fields in _NUMBERS.items():
             for field in fields:
@@ -99,13 +99,15 @@ class _Reader:
                     label = f"{self.label}: {word} {names[word][index] if word in names else index!r}: {field} is {row.tolist()}"
                     if not np.all(np.abs(row) < LARGEST):
                         raise BadNumberError(f"{label}; finite numbers below {LARGEST:g} are needed")
-                    unit = field in ("quat", "iquat") or (field == "axis" and self.joints.kind(index) in turning)
+                    unit = field in ("quat", "iquat") or (field == "axis" and self.joints.kind(index) in moved)
                     if unit and abs(np.linalg.norm(row) - 1.0) > UNIT:
                         raise BadNumberError(f"{label}; a direction or a rotation has length 1")
                     if field in ("mass", "inertia", "armature") and np.any(row < 0.0):
                         raise BadNumberError(f"{label}; zero or a positive number is needed")
-        if not np.all(np.abs(m.qpos0) < LARGEST):
-            raise BadNumberError(f"{self.label}: reference values qpos0 are {m.qpos0}; finite numbers below {LARGEST:g} are needed")
+        for j in range(m.njnt):
+            if self.joints.kind(j) in moved and not abs(self.joints.reference(j)) < LARGEST:
+                where = f"{self.label}: jnt {self.joints.names[j]!r}: ref is {self.joints.reference(j)}"
+                raise BadNumberError(f"{where}; a finite number below {LARGEST:g} is needed")
 
     def gravity(self) -> Vector3:
         off = int(self.model.opt.disableflags) & int(self.mujoco.mjtDisableBit.mjDSBL_GRAVITY)

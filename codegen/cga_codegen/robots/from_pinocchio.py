@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cga_codegen.robots.errors import BadNumberError, DuplicateNameError, UnsupportedJointError
 from cga_codegen.robots.model import Frame, Inertia, Joint, Kind, Placement, RobotModel, as_rotation, as_vector
@@ -21,6 +22,7 @@ _KINDS: dict[str, Kind] = {
     "JointModelFreeFlyer": "floating",
 }
 """Pinocchio's names of the joints that can be represented."""
+_MIMIC = "JointModelMimic"
 
 
 def load_pinocchio(model: Any) -> RobotModel:
@@ -38,11 +40,11 @@ def _joint_of(model: Any, index: int) -> Joint:
     joint, name = model.joints[index], str(model.names[index])
     follows, ratio, shift = "", 1.0, 0.0
     shortname = str(joint.shortname())
-    if shortname.startswith("JointModelMimic"):
-        mimic = joint.extract() if hasattr(joint, "extract") else joint
+    if shortname == _MIMIC:
+        mimic = joint.extract()
         leader = model.mimicked_joints[list(model.mimicking_joints).index(index)]
         follows, ratio, shift = str(model.names[leader]), mimic.scaling, mimic.offset
-        shortname = str(mimic.jmodel.shortname())
+        shortname = _mimicking(_screw(model, index))
     if shortname not in _KINDS or (_KINDS[shortname] == "floating" and index > 1):
         known = "revolute, continuous and prismatic joints, and a free flyer at the root,"
         raise UnsupportedJointError(f"{model.name}: joint {name!r} is a {shortname}; {known} can be represented")
@@ -70,19 +72,33 @@ def follow(joint: Joint, leader: str, ratio: float, shift: float, armature: floa
 
 def pinocchio_joint(model: Any, index: int, kind: Kind, limits: tuple[float, float, float, float], inertia: Inertia | None) -> Joint:
     """Pinocchio's joint `index` (0 is the universe, hence the shift of parents by one)."""
-    import pinocchio
-
     name = str(model.names[index])
     axis = np.zeros(3)
     if kind != "floating":
-        data = model.joints[index].createData()
-        model.joints[index].calc(data, pinocchio.neutral(model))
-        screw = np.asarray(data.S).reshape(6)  # linear, angular, in the joint's frame
+        screw = _screw(model, index)
         axis = screw[:3] if kind == "prismatic" else screw[3:]
-        axis = axis / np.linalg.norm(axis)  # a mimicking joint's is multiplied by its ratio
+        axis = axis / np.linalg.norm(axis)
+        if str(model.joints[index].shortname()) == _MIMIC and model.joints[index].extract().scaling < 0.0:
+            axis = -axis  # Pinocchio's is multiplied by the ratio
     where = f"joint {name!r}"
     placement = placement_of(model.jointPlacements[index], where)
     return Joint(name, kind, int(model.parents[index]) - 1, placement, as_vector(axis, f"axis of {where}"), *limits, inertia)
+
+
+def _screw(model: Any, index: int) -> NDArray[np.float64]:
+    """Of a joint with one degree of freedom: linear, angular, in the joint's frame."""
+    import pinocchio
+
+    data = model.joints[index].createData()
+    model.joints[index].calc(data, pinocchio.neutral(model))
+    return np.array(data.S, dtype=np.float64).reshape(6)
+
+
+def _mimicking(screw: NDArray[np.float64]) -> str:
+    """Kind of a mimicking joint by its screw, since Pinocchio does not show the joint inside; a ratio of 0 leaves nothing to see."""
+    slides, turns = (bool(part.any()) for part in (screw[:3], screw[3:]))
+    kinds = {(True, False): "JointModelPrismaticUnaligned", (False, True): "JointModelRevoluteUnaligned", (True, True): f"{_MIMIC} of a helix"}
+    return kinds.get((slides, turns), f"{_MIMIC} of ratio 0")
 
 
 def placement_of(pose: Any, what: str) -> Placement:

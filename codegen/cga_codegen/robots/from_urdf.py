@@ -38,6 +38,8 @@ def load_urdf(
 
     Warns (InertiaWarning) of inertias that no body has. Raises a named child of ModelError (`cga_codegen.robots.errors`).
     """
+    if mimic not in ("follow", "independent"):
+        raise ModelError(f"mimic={mimic!r} given; 'follow' or 'independent' is needed")
     file = read_urdf(path_or_text, mimic)
     if base == "floating" and file.floats:
         raise ModelError(f"{file.source}: base='floating' given, but the file has a floating joint of its own")

@@ -35,6 +35,7 @@ _LEFT_OUT = {
     *("camera", "light", "statistic", "visual"),
     *("contact", "custom", "deformable", "extension", "keyframe", "lengthrange", "pair", "plugin", "sensor", "size"),
 }
+_LISTS = {"actuator", "equality", "tendon"}
 _SOFT = {"composite", "flexcomp"}
 _EQUALITIES = {"connect", "joint", "tendon", "weld"}
 _ATTRIBUTES = {"actdim", "content_type", "delay", "file", "interp", "material", "nsample", "user"}
@@ -84,7 +85,7 @@ class _Reader:
         self.included: set[Path] = set()
         self.attached: dict[Path, tuple[str, str, int]] = {}  # file -> its name in the text for MuJoCo, its model's name, its parts
         self.models: dict[str, bytes] = {}
-        self.files, self.bytes = 0, 0
+        self.files, self.bytes, self.elements = 0, 0, 0
 
     def document(self, root: ET.Element, here: Path | None, chain: tuple[Path, ...]) -> tuple[str, int]:
         """The text for MuJoCo and the number of parts in it. chain: the files that asked for this one as a model to attach."""
@@ -99,12 +100,13 @@ class _Reader:
             for constraint in equality:
                 if constraint.tag not in _EQUALITIES:
                     raise UnsupportedJointError(f"{self.where}: an equality <{constraint.tag}> of soft bodies is given; joint is read")
-        parts: dict[str, int] = {}
-        inside = 0
+        models: dict[str, int] = {}
         for model in clean.iter("model"):
             name, size = self.model(model, here, chain)
-            parts[name], inside = size, inside + size
-        count = inside + self.count(clean, parts, {}, ())
+            models[name] = max(size, models.get(name, 0))
+        listed = [part for section in clean if section.tag in _LISTS for part in section]
+        mentions = [{value for element in part.iter() for value in element.attrib.values()} for part in listed]
+        count = sum(models.values()) + _Count(self.where, models, mentions).parts(clean, ())
         clean.append(ET.fromstring(_OURS))
         return ET.tostring(clean, encoding="unicode"), count
 
@@ -124,6 +126,9 @@ class _Reader:
             self.included.add(path)
             root = self.read(path)
             return [kept for child in root for kept in self.clean(child, path.parent, depth)]
+        self.elements += 1
+        if self.elements > MAX_PARTS:
+            raise UnsafeFileError(f"{self.where}: more than {MAX_PARTS} elements are given; at most {MAX_PARTS} are read")
         dropped = _ATTRIBUTES | _COMPILER if tag == "compiler" else _ATTRIBUTES - {"file"} if tag == "model" else _ATTRIBUTES
         kept = ET.Element(tag, {key: value for key, value in element.items() if key not in dropped})
         for child in element:
@@ -146,35 +151,6 @@ class _Reader:
         element.set("file", key)
         return element.get("name") or title, count
 
-    def count(self, element: ET.Element, models: dict[str, int], known: dict[str, int], around: tuple[str, ...]) -> int:
-        """The number of parts with all copies. known: those of the named bodies and frames before this element; around: those it is in."""
-        name = element.get("name", "") if element.tag in ("body", "frame") else ""
-        total = 1
-        if element.tag == "attach":
-            target = element.get("body") or element.get("frame") or ""
-            if "model" in element.keys():
-                total += models.get(element.get("model", ""), 0)
-            elif target in around:
-                raise TreeError(f"{self.where}: {target!r} is attached inside itself; a robot has an end")
-            else:
-                total += known.get(target, 0)
-        for child in element:
-            total += self.count(child, models, known, (*around, name) if name else around)
-        if element.tag == "replicate":
-            given = element.get("count", "1")
-            try:
-                copies = float(given)
-            except ValueError:
-                copies = math.nan
-            if not 1 <= copies <= MAX_PARTS:
-                raise BadNumberError(f"{self.where}: replicate count is {given[:80]!r}; a whole number from 1 to {MAX_PARTS} is needed")
-            total = math.ceil(total * copies)
-        if total > MAX_PARTS:
-            raise UnsafeFileError(f"{self.where}: more than {MAX_PARTS} elements with all copies made; at most {MAX_PARTS} are read")
-        if name:
-            known[name] = total
-        return total
-
     def path(self, element: ET.Element, here: Path | None) -> Path:
         """The file that an element names: relative to the main file, else to the one it stands in (MuJoCo's order); inside the folder."""
         given = element.get("file")
@@ -194,6 +170,8 @@ class _Reader:
             raise UnreadableFileError(f"{label}, which cannot be found ({error})") from None
         if not path.is_relative_to(self.allowed):
             raise UnsafeFileError(f"{label}, which lies outside of folder {self.allowed.name!r}; files inside it are read")
+        if not path.exists():
+            raise UnreadableFileError(f"{label}, which does not exist; a file in the folder of the main one is needed")
         return path
 
     def read(self, path: Path) -> ET.Element:
@@ -203,3 +181,53 @@ class _Reader:
         if self.files > MAX_FILES or self.bytes > MAX_BYTES:
             raise UnsafeFileError(f"{self.where}: more than {MAX_FILES} files or {MAX_BYTES} bytes are included; at most these are read")
         return read_xml(path, "MJCF")[0]
+
+
+class _Count:
+    """Counts the elements of one file with all copies. models: parts of the models that it may attach, by name; mentions: the names that
+    each equality, tendon and actuator mentions: MuJoCo copies those of whatever it copies."""
+
+    def __init__(self, where: str, models: dict[str, int], mentions: list[set[str]]) -> None:
+        self.where, self.models, self.mentions = where, models, mentions
+        self.known: dict[str, tuple[int, ET.Element]] = {}  # bodies and frames that stand before the element at hand
+
+    def parts(self, element: ET.Element, around: tuple[str, ...]) -> int:
+        """Of this element and all in it; around: the names of the bodies and frames that it is in."""
+        name = element.get("name", "") if element.tag in ("body", "frame") else ""
+        inside = (*around, name) if name else around
+        total = 1 + sum(self.parts(child, inside) for child in element)
+        if element.tag == "attach":
+            total += self.attached(element, around)
+        if element.tag == "replicate":
+            given = element.get("count", "1")
+            try:
+                copies = float(given)
+            except ValueError:
+                copies = math.nan
+            if not 1 <= copies <= MAX_PARTS:
+                raise BadNumberError(f"{self.where}: replicate count is {given[:80]!r}; a whole number from 1 to {MAX_PARTS} is needed")
+            total = math.ceil((total + self.mentioned(element)) * copies)
+        if total > MAX_PARTS:
+            raise UnsafeFileError(f"{self.where}: more than {MAX_PARTS} elements with all copies made; at most {MAX_PARTS} are read")
+        if name:
+            self.known[name] = total, element
+        return total
+
+    def attached(self, element: ET.Element, around: tuple[str, ...]) -> int:
+        """Of what an <attach> copies."""
+        target = element.get("body") or element.get("frame") or ""
+        if element.get("model") is not None:
+            return self.models.get(element.get("model", ""), 0)
+        if target in around:
+            raise TreeError(f"{self.where}: {target!r} is attached inside itself; a robot has an end")
+        if target not in self.known:
+            raise BrokenFileError(f"{self.where}: {target!r} is to be attached; a body or frame written before that place is needed")
+        total, body = self.known[target]
+        return total + self.mentioned(body)
+
+    def mentioned(self, element: ET.Element) -> int:
+        """How many equalities, tendons and actuators mention something in the element."""
+        if not self.mentions:
+            return 0
+        names = {part.get("name", "") for part in element.iter()}
+        return sum(not names.isdisjoint(mention) for mention in self.mentions)

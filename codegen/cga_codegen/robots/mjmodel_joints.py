@@ -132,7 +132,7 @@ class MjJoints:
         acting = self.actuators(j)
         largest = sum(abs(float(m.actuator_gear[a, 0])) * self.force(a) for a in acting if m.actuator_gear[a, 0]) if acting else math.inf
         if m.jnt_actfrclimited[j]:
-            largest = min(largest, float(np.abs(m.jnt_actfrcrange[j]).max()))
+            largest = float(np.minimum(largest, np.abs(m.jnt_actfrcrange[j]).max()))  # unlike min() it keeps nan
         if math.isnan(largest):
             raise BadNumberError(f"{self.label}: joint {self.names[j]!r}: a force limit of its actuators is nan; numbers are needed")
         return largest
@@ -146,5 +146,5 @@ class MjJoints:
         control = int(m.actuator_ctrladr[a]) if hasattr(m, "actuator_ctrladr") else a
         clamped = not int(m.opt.disableflags) & int(mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL)
         if made == plain and clamped and control >= 0 and m.actuator_ctrllimited[control]:
-            limit = min(limit, abs(float(m.actuator_gainprm[a, 0])) * float(np.abs(m.actuator_ctrlrange[control]).max()))
+            limit = float(np.minimum(limit, abs(m.actuator_gainprm[a, 0]) * np.abs(m.actuator_ctrlrange[control]).max()))
         return limit

@@ -105,7 +105,7 @@ def coordinates(joints: Sequence[Joint]) -> Coordinates:
     """The coordinates of joints: those of the independent ones in their order, then of joints that are followed but not among them."""
     leaders = [joint.name for joint in joints if not joint.follows]
     names = tuple(dict.fromkeys([*leaders, *(joint.follows for joint in joints if joint.follows)]))
-    kinds = {name: joint.kind for joint in reversed(joints) for name in (joint.follows or joint.name,)}
+    kinds = {joint.follows or joint.name: joint.kind for joint in sorted(joints, key=lambda joint: not joint.follows)}
     floating = bool(joints) and joints[0].kind == "floating"
     ones = names[1:] if floating else names
     motions = [(ones.index(j.follows or j.name), j.ratio if j.follows else 1.0) for j in joints if j.kind != "floating"]
@@ -152,10 +152,15 @@ class RobotModel:
         for k, joint in enumerate(self.joints):
             if not -1 <= joint.parent < k:
                 raise ModelError(f"{self.name}: joint {joint.name!r} comes before its parent")
-            if joint.kind == "floating" and k > 0:
-                raise ModelError(f"{self.name}: joint {joint.name!r} floats; only the base may")
-            if joint.follows and not any(j.name == joint.follows and not j.follows and j.kind != "floating" for j in self.joints):
+            if k > 0 and "floating" in (joint.kind, self.joints[0].kind if joint.parent < 0 else ""):
+                wrong = "floats; only the base may" if joint.kind == "floating" else "does not hang on the floating base"
+                raise ModelError(f"{self.name}: joint {joint.name!r} {wrong}")
+            leader = next((j for j in self.joints if j.name == joint.follows and not j.follows and j.kind != "floating"), None)
+            if joint.follows and leader is None:
                 raise ModelError(f"{self.name}: joint {joint.name!r} mimics {joint.follows!r}; the name of an independent joint is needed")
+            if leader and (leader.kind == "prismatic") != (joint.kind == "prismatic"):  # one coordinate is an angle or a length
+                kinds = f"joint {joint.name!r} is {joint.kind} and mimics {leader.name!r}, which is {leader.kind}"
+                raise ModelError(f"{self.name}: {kinds}; both must turn or both slide")
 
     @cached_property
     def coordinates(self) -> Coordinates:
@@ -164,9 +169,8 @@ class RobotModel:
 
     def frame(self, name: str) -> Frame:
         """The frame of that name; a ModelError lists the valid names."""
-        for frame in self.frames:
-            if frame.name == name:
-                return frame
+        if found := next((frame for frame in self.frames if frame.name == name), None):
+            return found
         raise ModelError(f"{self.name} has no frame {name!r}; frames: {', '.join(f.name for f in self.frames)}")
 
     def tips(self) -> tuple[str, ...]:
@@ -248,7 +252,8 @@ class RobotModel:
         for key, value in values.items():
             if not math.isfinite(value):
                 raise ModelError(f"{self.name}: joint {key!r} cannot be locked at {value}; a finite number is needed")
-            found = [j for j in self.joints if fnmatchcase(j.name, key) and (j.name == key or not (j.follows or j.kind == "floating"))]
+            found = [j for j in self.joints if j.name == key]  # first, since names may hold brackets
+            found = found or [j for j in self.joints if fnmatchcase(j.name, key) and not (j.follows or j.kind == "floating")]
             if not found:
                 raise ModelError(f"{self.name} has no joint {key!r} to lock; joints: {', '.join(j.name for j in self.joints)}")
             for joint in found:

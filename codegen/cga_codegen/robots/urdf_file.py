@@ -25,12 +25,12 @@ from cga_codegen.robots.errors import (
     UnsupportedJointError,
 )
 from cga_codegen.robots.safe_xml import read_xml
-from cga_codegen.robots.urdf_tree import Follow, check_base, check_tree, leaders
+from cga_codegen.robots.urdf_tree import LARGEST, Follow, check_base, check_tree, leaders
 
 MAX_LINKS = 1000
 """Pinocchio descends link by link on the C stack (10,000 links in a row are a segmentation fault) and needs quadratic time."""
-LARGEST = 1e50
-"""Lengths, masses and inertias stay below it, so that no product of a few of them overflows. Limits may be as large as a double."""
+MAX_NAME = 200
+"""Characters in a name: names stand in messages and become names of files."""
 MOVING = ("revolute", "continuous", "prismatic")
 
 Limits = tuple[float, float, float, float]
@@ -79,11 +79,11 @@ class _Check:
 
     def robot(self, robot: ET.Element) -> UrdfFile:
         if robot.tag != "robot":
-            raise BrokenFileError(f"{self.where}: the root element is <{robot.tag}>; a URDF has <robot>")
+            raise BrokenFileError(f"{self.where}: the root element is <{robot.tag[:80]}>; a URDF has <robot>")
         for element in robot.iter():
             if "xacro" in element.tag.partition("}")[0]:  # the tag is {namespace}name
                 raise BrokenFileError(f"{self.where}: contains xacro macros; expand it first with `xacro FILE > robot.urdf`")
-        title = robot.get("name") or "robot"
+        title = self.name(robot, "robot")
         links, joints = robot.findall("link"), robot.findall("joint")
         if not links:
             raise BrokenFileError(f"{self.where}: no <link> is given; a robot has at least one")
@@ -121,13 +121,20 @@ class _Check:
     def names(self, elements: Iterable[ET.Element]) -> set[str]:
         seen: set[str] = set()
         for element in elements:
-            name = element.get("name")
-            if not name:
-                raise BrokenFileError(f"{self.where}: a <{element.tag}> has no name; every joint and link needs one")
+            name = self.name(element)
             if name in seen:
                 raise DuplicateNameError(f"{self.where}: two {element.tag}s are called {name!r}; names must be unique")
             seen.add(name)
         return seen
+
+    def name(self, element: ET.Element, default: str = "") -> str:
+        name = element.get("name") or default
+        if not name:
+            raise BrokenFileError(f"{self.where}: a <{element.tag}> has no name; every joint and link needs one")
+        if len(name) > MAX_NAME:
+            given = f"a <{element.tag}> has a name of {len(name)} characters ({name[:40]!r}...)"
+            raise BrokenFileError(f"{self.where}: {given}; at most {MAX_NAME} are read")
+        return name
 
     def only(self, element: ET.Element, tag: str, label: str) -> ET.Element | None:
         found = element.findall(tag)
@@ -139,7 +146,7 @@ class _Check:
         words = text.split()
         try:
             values = tuple(float(word) for word in words)
-            if "_" in text or len(values) != count:  # float() reads 1_000, XML Schema does not
+            if "_" in text or not text.isascii() or len(values) != count:  # float() reads 1_000 and Arabic digits, XML Schema does not
                 raise ValueError
         except ValueError:
             wanted = "one number is" if count == 1 else f"{count} numbers are"
@@ -165,7 +172,7 @@ class _Check:
         if origin is None:
             return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
         if unknown := set(origin.keys()) - {"xyz", "rpy"}:
-            raise BrokenFileError(f"{label}: <origin> has {sorted(unknown)[0]!r}; xyz and rpy are read")
+            raise BrokenFileError(f"{label}: <origin> has {sorted(unknown)[0][:80]!r}; xyz and rpy are read")
         xyz = self.numbers(origin.get("xyz", "0 0 0"), 3, f"{label}: origin xyz", LARGEST)
         return xyz, self.numbers(origin.get("rpy", "0 0 0"), 3, f"{label}: origin rpy", LARGEST)
 
@@ -187,7 +194,7 @@ class _Check:
     def kind(self, joint: ET.Element, label: str) -> str:
         kind = joint.get("type", "")
         if kind not in (*MOVING, "fixed", "floating"):
-            raise UnsupportedJointError(f"{label} is of type {kind!r}; revolute, continuous, prismatic, fixed and floating are read")
+            raise UnsupportedJointError(f"{label} is of type {kind[:80]!r}; revolute, continuous, prismatic, fixed and floating are read")
         return kind
 
     def follow(self, mimic: ET.Element, label: str) -> Follow:
@@ -203,7 +210,7 @@ class _Check:
         if not name:
             raise BrokenFileError(f"{label} has no {side} link; each joint names a parent and a child")
         if name not in links:
-            raise TreeError(f"{label}: its {side} link {name!r} does not exist; add a <link> of that name")
+            raise TreeError(f"{label}: its {side} link {name[:80]!r} does not exist; add a <link> of that name")
         return name
 
     def axis(self, joint: ET.Element, label: str) -> tuple[float, ...]:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cga_codegen.robots.errors import DuplicateNameError, TreeError, UnsupportedJointError
+from cga_codegen.robots.errors import BadNumberError, DuplicateNameError, TreeError, UnsupportedJointError
+
+LARGEST = 1e50
+"""Lengths, masses, inertias and ratios stay below it, so that no product of a few of them overflows."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +60,10 @@ def leaders(where: str, follows: dict[str, Follow], kinds: dict[str, str]) -> di
         label, seen = f"{where}: joint {name!r}", {name}
         while True:
             if follow.joint not in kinds:
-                raise UnsupportedJointError(f"{label} mimics {follow.joint!r}, which is no moving joint; name one that moves")
+                raise UnsupportedJointError(f"{label} mimics {follow.joint[:80]!r}, which is no moving joint; name one that moves")
+            if (kinds[follow.joint] == "prismatic") != (kinds[name] == "prismatic"):  # one coordinate is an angle or a length
+                both = f"is {kinds[name]} and mimics {follow.joint!r}, which is {kinds[follow.joint]}"
+                raise UnsupportedJointError(f"{label} {both}; both must turn or both slide (mimic='independent' reads each by itself)")
             if follow.joint in seen:
                 raise UnsupportedJointError(f"{label} mimics itself in the end; one joint must move by itself")
             if follow.joint not in follows:
@@ -65,5 +71,8 @@ def leaders(where: str, follows: dict[str, Follow], kinds: dict[str, str]) -> di
             seen.add(follow.joint)
             above = follows[follow.joint]
             follow = Follow(above.joint, follow.ratio * above.ratio, follow.ratio * above.shift + follow.shift)
+        if max(abs(follow.ratio), abs(follow.shift)) >= LARGEST:
+            total = f"multiplier {follow.ratio:g} and offset {follow.shift:g}"
+            raise BadNumberError(f"{label} mimics {follow.joint!r} by way of others with {total}; less than {LARGEST:g} is needed")
         found[name] = follow
     return found
