@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib.util
+import logging
 import os
 import platform
 import shlex
@@ -22,6 +23,7 @@ from cga_runtime.errors import CacheError, CompilerError, KernelWarning
 FLAGS = ("-std=c99", "-O2", "-march=native", "-ffp-contract=fast", "-fPIC", "-shared")
 """No -ffast-math: it gains at most 8 % and gives up NaN and signed zeros."""
 TIME_LIMIT = 300.0
+LOG = logging.getLogger("cga_runtime")
 _ADVICE = "set CC to another compiler, or CGA_NO_COMPILER=1 to run the Python text"
 
 
@@ -135,6 +137,7 @@ def _intact(library: Path) -> bool:
 
 
 def _build(compiler: Compiler, source: str, library: Path) -> None:
+    LOG.info("compiling %s: %d kB of C", library.name.rsplit("-", 1)[0], len(source) // 1000)
     with tempfile.TemporaryDirectory(dir=library.parent, prefix=".build-") as build:
         c_file, output = Path(build) / "kernels.c", Path(build) / "kernels.so"
         c_file.write_text(source, encoding="utf-8")

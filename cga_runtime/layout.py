@@ -37,17 +37,19 @@ OF_Q = frozenset({*_OF_ANGLE, "base"})
 @dataclass(frozen=True)
 class Layout:
     """names, kinds: one a coordinate, a floating base first (8 numbers of q, 6 of v), all others one number each. motions: for each joint
-    that does not float the number of its coordinate among these others, and the ratio by which it moves with it."""
+    that does not float the number of its coordinate among these others, the ratio by which it moves with it, and whether it slides."""
 
     names: tuple[str, ...]
     kinds: tuple[str, ...]
-    motions: tuple[tuple[int, float], ...]
+    motions: tuple[tuple[int, float, bool], ...]
 
     @classmethod
     def of(cls, record: Mapping[str, Any]) -> Layout:
         """That of a unit in a manifest."""
-        motions = tuple((int(k), float(ratio)) for k, ratio in record["motions"])
-        return cls(tuple(record["joint_names"]), tuple(record["joint_kinds"]), motions)
+        kinds = tuple(record["joint_kinds"])
+        ones = kinds[1:] if "floating" in kinds else kinds
+        motions = [(int(k), float(ratio), bool(rest[0]) if rest else ones[k] == "prismatic") for k, ratio, *rest in record["motions"]]
+        return cls(tuple(record["joint_names"]), kinds, tuple(motions))
 
     @property
     def floating(self) -> bool:
@@ -81,13 +83,12 @@ class Layout:
         if name == "base":
             return [q[k] for k in range(BASE)]
         first = BASE if self.floating else 0
-        ones = self.kinds[1:] if self.floating else self.kinds
 
-        def joint(k: int, ratio: float) -> Any:
+        def joint(k: int, ratio: float, slides: bool) -> Any:
             x = q[first + k] if ratio == 1.0 else ratio * q[first + k]
-            return _OF_DISPLACEMENT[name](x) if ones[k] == "prismatic" else _OF_ANGLE[name](module, x)
+            return _OF_DISPLACEMENT[name](x) if slides else _OF_ANGLE[name](module, x)
 
-        return [joint(k, ratio) for k, ratio in self.motions]
+        return [joint(*motion) for motion in self.motions]
 
     def check_base(self, q: Array) -> None:
         """Raises DegenerateError where the motor of a floating base is not one."""

@@ -153,8 +153,8 @@ def _unit(key: dict[str, Any], subject: Callable[[], Any]) -> Unit:
                     texts, record = tree_unit(made, key["kernel"])
                 else:
                     texts, record = loop_unit(made) if "right" in key else chain_unit(made)
-                for kernel in record.kernels:
-                    LOG.info("%s: %s, %d operations", record.title, kernel.name, kernel.counts.total)
+                operations = sum(kernel.counts.total for kernel in record.kernels)
+                LOG.info("%s: %d kernels, %d operations", record.title, len(record.kernels), operations)
                 with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".build-") as build:
                     write_folder(Path(build) / "fresh", texts, manifest_text(__version__, texts, [record], {}))
                     _install(Path(build) / "fresh", folder)

@@ -16,6 +16,7 @@ import math
 import multiprocessing
 import os
 import resource
+import signal
 import statistics
 import sys
 import tempfile
@@ -34,7 +35,9 @@ from robot_mutations import Case, case
 
 ROOT = Path(__file__).resolve().parents[1]
 HANG = 10.0
-"""Seconds that a case may take."""
+"""Seconds of computing that a case may take, and as many again the comparison with another reader."""
+ASLEEP = 60.0
+"""Seconds after which a case that waits for something (or for a busy machine) is given up."""
 MEMORY = 8 << 30
 """Bytes of address space that a process may take."""
 
@@ -42,21 +45,29 @@ MEMORY = 8 << 30
 # ---- a worker
 
 
-def work(form: str, seed: int, pipe: Connection) -> None:
+def work(form: str, seed: int, folder: Path, pipe: Connection) -> None:
     """A worker's life: indices in; an outcome, its finding and its seconds out."""
+
+    def accepted() -> None:
+        signal.setitimer(signal.ITIMER_PROF, HANG)
+        pipe.send("accepted")
+
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    with tempfile.TemporaryDirectory() as folder, open(Path(folder) / "printed", "wb") as printed:
-        os.chdir(folder)
+    folder = Path(tempfile.mkdtemp(dir=folder))
+    os.chdir(folder)
+    with open("printed", "wb") as printed:
         os.dup2(printed.fileno(), 1)
         os.dup2(printed.fileno(), 2)
-        load(form, "<robot><link name='a'/></robot>" if form == "urdf" else "<mujoco/>", Case(b"", False, "fixed", "follow", ()))
-        pipe.send("ready")
-        with contextlib.suppress(EOFError):
-            while True:
-                index = pipe.recv()
-                started = time.perf_counter()
-                outcome, found = judge(form, seed, index, Path(folder), lambda: pipe.send("accepted"))
-                pipe.send((outcome, found, time.perf_counter() - started))
+    load(form, "<robot><link name='a'/></robot>" if form == "urdf" else "<mujoco/>", Case(b"", False, "fixed", "follow", ()))
+    pipe.send("ready")
+    with contextlib.suppress(EOFError):
+        while True:
+            index = pipe.recv()
+            started = time.perf_counter()
+            signal.setitimer(signal.ITIMER_PROF, HANG)  # its signal ends the process, whatever it is in
+            outcome, found = judge(form, seed, index, folder, accepted)
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
+            pipe.send((outcome, found, time.perf_counter() - started))
 
 
 # ---- in the parent: processes, deadlines, the table
@@ -68,6 +79,7 @@ class Worker:
 
     form: str
     seed: int
+    folder: Path
     index: int = -1
     since: float = math.inf
     stage: str = ""
@@ -77,7 +89,7 @@ class Worker:
     def __post_init__(self) -> None:
         context = multiprocessing.get_context("spawn")
         self.pipe, other = context.Pipe()
-        self.process = context.Process(target=work, args=(self.form, self.seed, other), daemon=True)
+        self.process = context.Process(target=work, args=(self.form, self.seed, self.folder, other), daemon=True)
         self.process.start()
         other.close()
 
@@ -91,13 +103,13 @@ class Worker:
         self.pipe.close()
 
 
-def outcomes(form: str, seed: int, indices: list[int], jobs: int) -> Any:
+def outcomes(form: str, seed: int, indices: list[int], jobs: int, folder: Path) -> Any:
     """(index, outcome, finding, seconds) of each case, as they come."""
-    waiting, workers = list(reversed(indices)), [Worker(form, seed) for _ in range(jobs)]
+    waiting, workers = list(reversed(indices)), [Worker(form, seed, folder) for _ in range(jobs)]
     while workers:
         wait([worker.pipe for worker in workers], timeout=0.5)
         for worker in list(workers):
-            late = time.monotonic() - worker.since > HANG
+            late = time.monotonic() - worker.since > ASLEEP
             try:
                 said = worker.pipe.recv() if worker.pipe.poll() else None
             except (EOFError, ConnectionResetError):
@@ -110,17 +122,21 @@ def outcomes(form: str, seed: int, indices: list[int], jobs: int) -> Any:
             if isinstance(said, tuple):
                 yield worker.index, *said
             elif said != "ready":
-                how = f"no answer after {HANG:g} s" if said is None else "the process died"
+                worker.process.join(0.0 if said is None else 5.0)
+                code = worker.process.exitcode
+                how = f"the process died (exit code {code})" if code is not None else f"no answer after {ASLEEP:g} s"
+                if code == -signal.SIGPROF:
+                    how = f"{HANG:g} s of computing and no answer"
                 worker.end()
                 if worker.index < 0:
-                    raise SystemExit(f"a worker could not start (exit code {worker.process.exitcode}); run the reader by hand")
+                    raise SystemExit(f"a worker could not start (exit code {code}); run the reader by hand")
                 outcome = "finding"
                 if worker.stage:
-                    outcome, how = f"accepted, the peer: {how}", ""
+                    outcome, how = "accepted, the peer dies", ""
                 yield worker.index, outcome, how, time.monotonic() - worker.since
                 workers.remove(worker)
                 if waiting:
-                    workers.append(Worker(form, seed))
+                    workers.append(Worker(form, seed, folder))
                 continue
             if waiting:
                 worker.start(waiting.pop())
@@ -141,9 +157,9 @@ def main() -> int:
     seconds: dict[str, list[float]] = defaultdict(list)
     findings: list[tuple[int, str]] = []
     indices = list(range(given.first, given.first + given.count))
-    with Progress(console=Console(stderr=True)) as progress:
+    with tempfile.TemporaryDirectory() as folder, Progress(console=Console(stderr=True)) as progress:
         bar = progress.add_task(f"{given.format}, seed {given.seed}", total=given.count)
-        for index, outcome, found, took in outcomes(given.format, given.seed, indices, given.jobs):
+        for index, outcome, found, took in outcomes(given.format, given.seed, indices, given.jobs, Path(folder)):
             seconds[outcome].append(took)
             progress.advance(bar)
             if found:

@@ -14,6 +14,7 @@ from robot_mutations import Case, case
 
 TIPS = 8
 """Chains cut from one robot, at most."""
+MOVING = ("revolute", "continuous", "prismatic")
 MANY = 300
 """Joints of a robot that is compared, at most: Pinocchio's Data of a thousand takes gigabytes."""
 LONGEST = 2000
@@ -83,26 +84,29 @@ def compare_with_pinocchio(given: str | Path, made: Case, model: Any, values: di
         peer = build(str(given), *root)
     except Exception:
         return "Pinocchio refuses"
+    robot = elements(made)
+    if not axes_fit(robot):
+        return "an axis that Pinocchio cannot normalise"
     names = [str(name) for name in list(peer.names)[1:]]
     if names != [joint.name for joint in model.joints]:
         raise Finding(f"joints are {[j.name for j in model.joints][:9]}, Pinocchio has {names[:9]}")
     q = pinocchio.neutral(peer)
     if made.mimic == "follow":
-        values = leaders(made.data.strip(), values)
+        values = leaders(robot, values)
     for joint, at in zip(model.joints, list(peer.joints)[1:], strict=True):
         if joint.kind != "floating":
             value = values[joint.name]
             if abs(value) > 1e3:
                 return "turns too far to compare"
             q[at.idx_q : at.idx_q + at.nq] = value if at.nq == 1 else (math.cos(value), math.sin(value))
-    data = peer.createData()
-    pinocchio.framesForwardKinematics(peer, data, q)
+    computed = peer.createData()
+    pinocchio.framesForwardKinematics(peer, computed, q)
     mine = {frame.name: np.reshape(found[16 * k : 16 * k + 16], (4, 4)) for k, frame in enumerate(model.frames)}
     scale = 1.0 + max((abs(x) for m in mine.values() for x in m[:3, 3]), default=0.0)
     scale += sum(abs(x) for item in (*model.joints, *model.frames) for x in item.placement.translation)
     theirs = {}
     for k in reversed(range(len(peer.frames))):  # of frames that share a name the first keeps it
-        theirs[str(peer.frames[k].name)] = data.oMf[k].homogeneous
+        theirs[str(peer.frames[k].name)] = computed.oMf[k].homogeneous
     if lost := [name for name in theirs if name not in mine]:
         raise Finding(f"frame {lost[0][:80]!r} of Pinocchio is missing")
     for name, pose in theirs.items():
@@ -110,17 +114,46 @@ def compare_with_pinocchio(given: str | Path, made: Case, model: Any, values: di
         if error[:, :3].max() > 1e-11 or error[:, 3].max() > 1e-11 * scale:
             raise Finding(f"frame {name[:80]!r} lies {error.max():.1e} from Pinocchio's")
     for joint, body in zip(model.joints, list(peer.inertias)[1:], strict=True):
-        own = pinocchio.Inertia.Zero()
-        if joint.inertia:
-            own = pinocchio.Inertia(joint.inertia.mass, np.array(joint.inertia.com), joint.inertia.matrix())
-        if not abs(own.matrix() - body.matrix()).max() <= 1e-10 * abs(body.matrix()).max():
-            raise Finding(f"joint {joint.name[:80]!r} carries {own}, with Pinocchio {body}")
+        own = spatial(joint.inertia)
+        if not abs(own - body.matrix()).max() <= 1e-10 * abs(body.matrix()).max():
+            raise Finding(f"joint {joint.name[:80]!r} carries {own.tolist()}, with Pinocchio {body}")
     return "agrees with Pinocchio"
 
 
-def leaders(data: bytes, values: dict[str, float]) -> dict[str, float]:
+def spatial(inertia: Any) -> Any:
+    """The 6x6 inertia (linear first) about the joint's origin of an Inertia or None."""
+    import numpy as np
+
+    if inertia is None:
+        return np.zeros((6, 6))
+    x, y, z = inertia.com
+    lever = inertia.mass * np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    about = inertia.matrix() + lever @ np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+    return np.block([[inertia.mass * np.eye(3), -lever], [lever, about]])
+
+
+def elements(made: Case) -> ET.Element:
+    """The file as XML, whichever way its letters are written, without the namespace of its root."""
+    try:
+        robot = ET.fromstring(made.data.strip())
+    except (ET.ParseError, ValueError, LookupError):
+        robot = ET.fromstring(made.text.lstrip("\ufeff \t\r\n"))
+    space = robot.tag.rpartition("}")[0] + "}"
+    for element in robot.iter():
+        element.tag = element.tag.removeprefix(space)
+    return robot
+
+
+def axes_fit(robot: ET.Element) -> bool:
+    """Whether Pinocchio can normalise all axes: the squares of longer or shorter ones overflow or vanish."""
+    axes = [axis for joint in robot.findall("joint") if joint.get("type") in MOVING for axis in joint.findall("axis")]
+    sizes = [max(abs(float(x)) for x in axis.get("xyz", "1").split()) for axis in axes]
+    return all(1e-150 < size < 1e150 for size in sizes)
+
+
+def leaders(robot: ET.Element, values: dict[str, float]) -> dict[str, float]:
     """The values of joints when those that mimic do so, straight from the file: q = multiplier q_leader + offset."""
-    mimics = {joint.get("name", ""): found for joint in ET.fromstring(data).iter("joint") if (found := joint.find("mimic")) is not None}
+    mimics = {joint.get("name", ""): found for joint in robot.findall("joint") if (found := joint.find("mimic")) is not None}
 
     def value(name: str) -> float:
         if name not in mimics or name not in values:
@@ -132,7 +165,38 @@ def leaders(data: bytes, values: dict[str, float]) -> dict[str, float]:
 
 
 def compare_with_mujoco(given: str | Path, made: Case, model: Any, values: dict[str, float], found: list[float]) -> str:
-    return "not compared"
+    """MuJoCo's compilation of the same bytes: the bodies that it names alone are where the frames of their names are."""
+    import mujoco
+    import numpy as np
+
+    if any(joint.follows for joint in model.joints):
+        return "constraints are not compared"
+    try:
+        build = mujoco.MjModel.from_xml_path if isinstance(given, Path) else mujoco.MjModel.from_xml_string
+        peer = build(str(given))
+    except Exception:
+        return "MuJoCo refuses"
+    computed = mujoco.MjData(peer)
+    for j in range(peer.njnt):
+        address = peer.jnt_qposadr[j]
+        if peer.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE:
+            computed.qpos[address : address + 7] = 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0
+        elif (name := peer.joint(j).name or f"joint{j}") not in values:
+            return "a joint that is welded is not compared"
+        else:
+            computed.qpos[address] = values[name]
+    mujoco.mj_kinematics(peer, computed)
+    mine = {frame.name: np.reshape(found[16 * k : 16 * k + 16], (4, 4)) for k, frame in enumerate(model.frames)}
+    scale = 1.0 + sum(abs(x) for item in (*model.joints, *model.frames) for x in item.placement.translation)
+    for b in range(1, peer.nbody):
+        name = peer.body(b).name or f"body{b}"
+        pose = mine.get(f"{name}:body", mine.get(name))
+        if pose is None:
+            raise Finding(f"body {name[:80]!r} of MuJoCo is missing")
+        error = max(abs(pose[:3, 3] - computed.xpos[b]).max() / scale, abs(pose[:3, :3] - computed.xmat[b].reshape(3, 3)).max())
+        if not error < 1e-11:
+            raise Finding(f"body {name[:80]!r} lies {error:.1e} from MuJoCo's")
+    return "agrees with MuJoCo"
 
 
 COMPARE = {"urdf": compare_with_pinocchio, "mjcf": compare_with_mujoco}

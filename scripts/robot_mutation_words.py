@@ -140,7 +140,7 @@ SPLICES = (
     ),
     *(
         '<xacro:macro xmlns:xacro="http://www.ros.org/wiki/xacro" name="m"/>',
-        '<q:link xmlns:q="urn:q" name="z"/>',
+        '<q:link xmlns:q="urn:z" name="z"/>',
         "<include file='/etc/passwd'/>",
     ),
     *(

@@ -90,7 +90,8 @@ def _number(rng: random.Random, root: ET.Element) -> None:
     """One number of one attribute, or all of them."""
     having = [(e, key) for e in root.iter() for key, value in e.attrib.items() if value.strip()[:1] in set("+-.0123456789")]
     if having:
-        element, key = rng.choice(having)
+        key = rng.choice(sorted({key for _, key in having}))
+        element = rng.choice([e for e, given in having if given == key])
         words = element.attrib[key].split()
         words[rng.randrange(len(words))] = rng.choice(NUMBERS)
         element.attrib[key] = rng.choice([" ".join(words), " ".join(words), rng.choice(NUMBERS)])
@@ -113,7 +114,11 @@ def _kind(rng: random.Random, root: ET.Element) -> None:
 
 def _splice(rng: random.Random, root: ET.Element) -> None:
     target = rng.choice([e for e in root.iter() if e.tag in ("link", "joint", "robot", "body", "worldbody")] or [root])
-    target.insert(rng.randrange(len(target) + 1), ET.fromstring(rng.choice(SPLICES)))
+    new = ET.fromstring(rng.choice(SPLICES))
+    old = target.find(new.tag)
+    if old is not None and new.tag not in ("link", "joint") and rng.random() < 0.8:
+        target.remove(old)
+    target.insert(rng.randrange(len(target) + 1), new)
 
 
 def _graft(rng: random.Random, root: ET.Element) -> None:

@@ -160,7 +160,7 @@ def _layout(subject: Subject) -> Layout:
     if isinstance(subject, Loop):
         arms = (subject.right.joints, subject.left.joints)
         joints = [joint for arm in arms for joint in arm]
-        return Layout(tuple(j.name for j in joints), tuple(j.kind for j in joints), tuple((k, 1.0) for k in range(len(joints))))
+        return Layout(tuple(j.name for j in joints), tuple(j.kind for j in joints), tuple((k, 1.0, j.kind == "prismatic") for k, j in enumerate(joints)))
     at: Coordinates = subject.coordinates
     return Layout(at.names, at.kinds, at.motions)
 

@@ -98,11 +98,11 @@ def declarations(exported: Sequence[Exported]) -> Iterator[str]:
     """What the header says of each function."""
     for one in exported:
         names = ", ".join(one.inputs)
-        sizes = ", ".join([*(f"{name}[{size}]" for name, size in one.inputs.items()), f"out[{one.program.output.size}]"])
+        sizes = ", ".join(f"{name}[{size}]" for name, size in one.inputs.items())
         shape = " x ".join(map(str, one.shape))
         casadi = ", ".join(f"{function.name} ({function.operations})" for function in one.functions)
         arguments = ", ".join(f"const double *{name}" for name in one.inputs)
-        notes = f"Of {one.of}. {sizes}: {shape}. For CasADi, with operations: {casadi}."
+        notes = f"Of {one.of}. {sizes} -> out[{one.program.output.size}], {shape}. For CasADi, with operations: {casadi}."
         yield (
             f"\n/* {one.symbol}({names}, out): {one.summary}\n{wrapped(notes)} */\n"
             f"#define {one.symbol.upper()}_SIZE {one.program.output.size}\n"

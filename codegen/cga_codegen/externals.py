@@ -177,12 +177,12 @@ def _block(at: Symbols, by: tuple[str, ...], pattern: Pattern, values: Sequence[
         mirror = {(row, k): (k * size + row % size, row // size) for row, k in places if row // size > k}
         entries = {place: entries.get(mirror.get(place, place), casadi.SX(0)) for place in places}
     ways = [entries]
-    ways += [_placed(at.values(function).elements(), places, pattern, cols, len(by) - 1) for function in _analytic(at, by)]
+    ways += [_placed(at.values(function).elements(), places, pattern, cols, len(by) - 1) for function in analytic(at, by)]
     made_ways = [_lowered(at, by, rows, cols, entries) for entries in ways]
     return min(made_ways, key=lambda one: one.program.counts().total if one.program else 0)
 
 
-def _analytic(at: Symbols, by: tuple[str, ...]) -> list[Function]:
+def analytic(at: Symbols, by: tuple[str, ...]) -> list[Function]:
     """The functions that give this derivative."""
     way = ANALYTIC.get(by)
     if way is None or (by[-1] == "q" and at.layout.first):

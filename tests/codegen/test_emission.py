@@ -85,7 +85,7 @@ def body_inputs(kernel: Kernel, values, m):
 
 def named_joints(layout, q):
     """Kind and position of each joint, mimicking ones by their ratio."""
-    return [(layout.kinds[k], ratio * q[k] if ratio != 1.0 else q[k]) for k, ratio in layout.motions]
+    return [("prismatic" if slides else "revolute", ratio * q[k] if ratio != 1.0 else q[k]) for k, ratio, slides in layout.motions]
 
 
 def call(function, *arrays):

@@ -168,22 +168,7 @@ def test_cmake_installs_it_and_the_example_finds_it(small: RobotModel, tmp_path:
         assert np.abs(value - expected[name]).max() <= 2e-15 * np.abs(expected[name]).max(), name
 
 
-HOSTILE = [
-    'quo"te',
-    "it's",
-    "../../etc/passwd",
-    "a/b\\c",
-    "int",
-    "Ærøbot",
-    "9 lives",
-    "*/ end",
-    "what??/",
-    "${HOME} @{robot} $<0:x>",
-    "new\nline",
-    "_",
-    "机器人",
-    "",
-]
+HOSTILE = ['quo"te', "../../it's/passwd", "int", "Ærøbot 机器人", "9 lives*/", "a\\nb??/\n", "${HOME} @{robot} $<0:x>", "_", ""]
 
 
 @pytest.mark.compiler

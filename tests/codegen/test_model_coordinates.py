@@ -28,26 +28,35 @@ def joint(name, kind="revolute", parent=-1, follows="", ratio=1.0):
 def test_joints_that_all_move_by_themselves():
     found = coordinates([joint("a"), joint("b", "prismatic"), joint("c", "continuous")])
     assert (found.names, found.kinds) == (("a", "b", "c"), ("revolute", "prismatic", "continuous"))
-    assert found.motions == found.columns == ((0, 1.0), (1, 1.0), (2, 1.0)) and (found.nq, found.nv, found.floating) == (3, 3, False)
+    assert found.motions == ((0, 1.0, False), (1, 1.0, True), (2, 1.0, False)) and found.columns == ((0, 1.0), (1, 1.0), (2, 1.0))
+    assert (found.nq, found.nv, found.floating) == (3, 3, False)
 
 
 def test_a_follower_before_its_leader_has_no_coordinate():
     found = coordinates([joint("a", follows="c", ratio=-2.0), joint("b"), joint("c", "continuous"), joint("d", follows="b", ratio=0.5)])
     assert (found.names, found.kinds, found.nq, found.nv) == (("b", "c"), ("revolute", "continuous"), 2, 2)  # the leader's kind
-    assert found.motions == ((1, -2.0), (0, 1.0), (1, 1.0), (0, 0.5))
+    assert found.motions == ((1, -2.0, False), (0, 1.0, False), (1, 1.0, False), (0, 0.5, False))
 
 
 def test_leaders_outside_come_last():
     rail = joint("c", "prismatic", follows="rail", ratio=3.0)
     found = coordinates([joint("a", follows="far"), joint("b"), rail, joint("d", follows="far")])
     assert (found.names, found.kinds) == (("b", "far", "rail"), ("revolute", "revolute", "prismatic"))
-    assert found.motions == ((1, 1.0), (0, 1.0), (2, 3.0), (1, 1.0))
+    assert found.motions == ((1, 1.0, False), (0, 1.0, False), (2, 3.0, True), (1, 1.0, False))
+
+
+def test_what_follows_may_move_otherwise():
+    """A rack that a pinion drives, listed before and after it: the coordinate is the pinion's angle."""
+    rack = joint("rack", "prismatic", follows="pinion", ratio=0.02)
+    for joints in ([rack, joint("pinion", "continuous")], [joint("pinion", "continuous"), rack]):
+        found = coordinates(joints)
+        assert (found.names, found.kinds) == (("pinion",), ("continuous",)) and set(found.motions) == {(0, 0.02, True), (0, 1.0, False)}
 
 
 def test_a_floating_base_comes_first():
     found = coordinates([joint("base", "floating"), joint("a", follows="b", ratio=0.5), joint("b")])
     assert (found.names, found.kinds) == (("base", "b"), ("floating", "revolute")) and found.floating
-    assert (found.nq, found.nv) == (9, 7) and found.motions == ((0, 0.5), (0, 1.0))
+    assert (found.nq, found.nv) == (9, 7) and found.motions == ((0, 0.5, False), (0, 1.0, False))
     assert found.columns == (*((k, 1.0) for k in range(6)), (6, 0.5), (6, 1.0))
     alone = coordinates([joint("base", "floating")])
     assert (alone.nq, alone.nv, alone.motions, len(alone.columns)) == (8, 6, (), 6)
@@ -58,15 +67,15 @@ def test_a_floating_base_comes_first():
 def test_a_chain_has_the_coordinates_of_its_joints(skew_model):
     model = following(skew_model)
     right, left = model.chain("right_tip"), model.chain("left_tip")
-    assert model.coordinates.names == ("lean", "left_slide", "left_turn", "right_turn", "right_roll")
-    assert right.coordinates.names == ("lean", "right_turn", "right_roll", "left_slide") and right.n == 4  # right_slide follows left_slide
-    assert right.coordinates.kinds == ("revolute", "continuous", "revolute", "prismatic")
-    assert right.coordinates.motions == ((0, 1.0), (1, 1.0), (3, 1.5), (2, -0.7), (2, 1.0))
-    assert left.coordinates.names == ("lean", "left_slide", "left_turn") and left.coordinates.motions[-2:] == ((0, 2.0), (1, -0.4))
+    assert model.coordinates.names == ("lean", "left_slide", "left_turn", "right_roll")
+    assert right.coordinates.names == ("lean", "right_roll", "left_slide") and right.n == 3  # right_turn and right_slide follow left_slide
+    assert right.coordinates.motions == ((0, 1.0, False), (2, 0.8, False), (2, 1.5, True), (1, -0.7, False), (1, 1.0, False))
+    assert left.coordinates.names == ("lean", "left_slide", "left_turn")
+    assert left.coordinates.motions[-2:] == ((0, 2.0, False), (2, -0.4, True))
     beyond = model.chain("left_tip", root="left_2")
-    assert beyond.coordinates.names == ("lean", "left_slide") and beyond.coordinates.kinds == ("continuous", "prismatic")
+    assert beyond.coordinates.names == ("lean", "left_turn") and len(beyond.joints) == 2
     moving = floated(model)
-    assert moving.chain("right_tip").coordinates.names[0] == "drift" and moving.chain("right_tip").n == 10
+    assert moving.chain("right_tip").coordinates.names[0] == "drift" and moving.chain("right_tip").n == 9
     assert not moving.chain("right_tip", root="trunk").coordinates.floating
 
 
@@ -93,10 +102,6 @@ REFUSED = [
     ([joint("a"), joint("b", follows="a"), joint("c", follows="b")], "r: joint 'c' mimics 'b'; the name of an independent joint is needed"),
     ([joint("base", "floating"), joint("a", parent=0, follows="base")],
      "r: joint 'a' mimics 'base'; the name of an independent joint is needed"),
-    ([joint("a"), joint("b", "prismatic", follows="a")],
-     "r: joint 'b' is prismatic and mimics 'a', which is revolute; both must turn or both slide"),
-    ([joint("b", follows="a"), joint("a", "prismatic")],
-     "r: joint 'b' is revolute and mimics 'a', which is prismatic; both must turn or both slide"),
 ]  # fmt: skip
 
 
@@ -163,8 +168,8 @@ def test_locked_bundled_robots():
 def test_followers_are_locked_with_their_leader(skew_model):
     model = following(skew_model)
     ours = check_reduced(model, {"left_slide": 0.2})
-    assert [j.name for j in ours.joints] == ["lean", "left_turn", "left_bend", "right_turn", "right_bend", "right_roll"]
-    assert ours.coordinates.names == ("lean", "left_turn", "right_turn", "right_roll")
+    assert [j.name for j in ours.joints] == ["lean", "left_turn", "left_bend", "left_lift", "right_bend", "right_roll"]
+    assert ours.coordinates.names == ("lean", "left_turn", "right_roll")
 
 
 def test_patterns_and_values(skew_model):

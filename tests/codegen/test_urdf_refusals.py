@@ -154,7 +154,7 @@ REFUSED = {
     "mimics nobody": (
         urdf(ABC + joint() + joint("k", "b", "c", inside='<mimic joint="z"/>' + LIMIT)),
         UnsupportedJointError,
-        "joint 'k' mimics 'z', which is no moving joint; name one that moves",
+        "joint 'k' mimics 'z', which is no moving joint; name one that moves, or ask for mimic='independent'",
     ),
     "mimics itself": (
         urdf(ABC + joint(inside='<mimic joint="k"/>' + LIMIT) + joint("k", "b", "c", inside='<mimic joint="j"/>' + LIMIT)),

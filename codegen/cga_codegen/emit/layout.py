@@ -11,11 +11,11 @@ BASE = 8
 @dataclass(frozen=True)
 class Layout:
     """names, kinds: one a coordinate, a floating base first, all others one number of q each. motions: for each joint that does not float
-    its number among these others, and its ratio: the joint moves by ratio q."""
+    its number among these others, its ratio, and whether it slides: the joint moves by ratio q."""
 
     names: tuple[str, ...] = ()
     kinds: tuple[str, ...] = ()
-    motions: tuple[tuple[int, float], ...] = ()
+    motions: tuple[tuple[int, float, bool], ...] = ()
 
     @property
     def first(self) -> int:
@@ -30,5 +30,9 @@ class Layout:
     @property
     def joints(self) -> list[tuple[int, float, bool]]:
         """For each joint that does not float: its place in q, its ratio, and whether it slides."""
+        return [(self.first + k, ratio, slides) for k, ratio, slides in self.motions]
+
+    def to_json(self) -> list[list[int | float | bool]]:
+        """The motions as plain data: number, ratio, and whether it slides only where a joint does not move as its coordinate does."""
         ones = self.kinds[1:] if self.first else self.kinds
-        return [(self.first + k, ratio, ones[k] == "prismatic") for k, ratio in self.motions]
+        return [[k, ratio, *([slides] if slides != (ones[k] == "prismatic") else [])] for k, ratio, slides in self.motions]

@@ -72,7 +72,7 @@ class UnitRecord:
             "title": self.title,
             "joint_names": list(self.layout.names),
             "joint_kinds": list(self.layout.kinds),
-            "motions": [list(motion) for motion in self.layout.motions],
+            "motions": self.layout.to_json(),
             "kernels": {kernel.name: kernel.to_json() for kernel in self.kernels},
         }
 

@@ -11,8 +11,8 @@ from collections.abc import Iterable
 from cga_codegen.emit.layout import Layout
 from cga_codegen.emit.lower import LoweringError, Node, Program
 
-PART = 4000
-"""Operations of one C function; gcc -O2 compiles as many in about a second."""
+PART = 2000
+"""Operations of one C function: gcc compiles longer ones slowly (29 joints, 21,000 operations: 36 s in one function, 9 s in such parts)."""
 
 _PATTERNS = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}"}
 
@@ -49,7 +49,7 @@ static inline int cga_not_finite(const double *x, int n)
 """
 
 # joint coordinate pair -> the two C expressions for a revolute and for a prismatic joint
-_PAIRS = {("c", "s"): ("cos({q})", "sin({q})", "1.0", "{q}"), ("ch", "sh"): ("cos(0.5 * {q})", "sin(0.5 * {q})", "1.0", "0.5 * {q}")}
+PAIRS = {("c", "s"): ("cos({q})", "sin({q})", "1.0", "{q}"), ("ch", "sh"): ("cos(0.5 * {q})", "sin(0.5 * {q})", "1.0", "0.5 * {q}")}
 
 
 def print_body(program: Program, symbol: str, docstring: str) -> str:
@@ -118,15 +118,15 @@ def print_entries(program: Program, symbol: str, layout: Layout) -> str:
     come from q as `layout` says; others are passed on. Batches are row-major: element k of an input begins at k times its size.
     """
     names = [port.name for port in program.inputs]
-    pairs = [pair for pair in _PAIRS if set(pair) & set(names)]
-    angles = {"base", *(name for pair in _PAIRS for name in pair)}
+    pairs = [pair for pair in PAIRS if set(pair) & set(names)]
+    angles = {"base", *(name for pair in PAIRS for name in pair)}
     n = len(layout.motions)
     sizes = ([("q", layout.nq)] if angles & set(names) else []) + [(p.name, p.size) for p in program.inputs if p.name not in angles]
     arguments = ", ".join(f"const double *restrict {name} /* {size} */" for name, size in sizes)
     lines = [f"CGA_EXPORT int {symbol}({arguments}, double *restrict out /* {program.output.size} */)\n{{\n"]
     for pair in pairs:
         lines.append(f"    double {pair[0]}[{max(n, 1)}], {pair[1]}[{max(n, 1)}];\n")
-        lines += [f"    {line}\n" for line in _trigonometry(pair, layout)]
+        lines += [f"    {line}\n" for line in trigonometry(pair, layout)]
         lines += [f"    (void){name};\n" for name in pair if name not in names]
     lines.append(f"    {symbol}_body({', '.join('q' if name == 'base' else name for name in names)}, out);\n")
     lines.append(f"    return {' || '.join(f'cga_not_finite({name}, {size})' for name, size in sizes)};\n}}\n\n")
@@ -144,8 +144,8 @@ def print_file(banner: str, parts: Iterable[str]) -> str:
     return f"/* {banner} */\n\n{PREAMBLE}\n" + "\n".join(parts)
 
 
-def _trigonometry(pair: tuple[str, str], layout: Layout) -> list[str]:
-    cosine, sine, one, displacement = _PAIRS[pair]
+def trigonometry(pair: tuple[str, str], layout: Layout) -> list[str]:
+    cosine, sine, one, displacement = PAIRS[pair]
     joints = layout.joints
     if joints == [(j, 1.0, False) for j in range(layout.nq)]:
         a, b = cosine.format(q="q[j]"), sine.format(q="q[j]")

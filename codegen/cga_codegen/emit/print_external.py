@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 from cga_codegen.emit.layout import Layout
 from cga_codegen.emit.lower import Program
-from cga_codegen.emit.print_c import _PAIRS, _trigonometry, print_body
+from cga_codegen.emit.print_c import PAIRS, print_body, trigonometry
 
-OF_Q = ("base", *(name for pair in _PAIRS for name in pair))
+OF_Q = ("base", *(name for pair in PAIRS for name in pair))
 """Inputs of bodies that the entry points make from q."""
 
 
@@ -96,10 +96,10 @@ def _evaluation(external: External, layout: Layout) -> str:
     for k, (name, pattern) in enumerate(external.inputs):
         if pattern.size and (name in used or (name == "q" and used & set(OF_Q))):
             lines.append(f"    const double *{name} = arg[{k}] ? arg[{k}] : cga_zeros;\n")
-    for pair in (pair for pair in _PAIRS if set(pair) & used):
+    for pair in (pair for pair in PAIRS if set(pair) & used):
         length = max(len(layout.motions), 1)
         lines.append(f"    double {pair[0]}[{length}], {pair[1]}[{length}];\n")
-        lines += [f"    {line}\n" for line in _trigonometry(pair, layout)]
+        lines += [f"    {line}\n" for line in trigonometry(pair, layout)]
         lines += [f"    (void){name};\n" for name in pair]
     for k, output in enumerate(external.outputs):
         if output.program is None:

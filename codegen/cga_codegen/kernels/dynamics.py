@@ -183,7 +183,7 @@ def _mass_rows(tree: Tree, c: Vector, s: Vector) -> Rows:
     if all(ratio == 1.0 for _, ratio in tree.coordinates.columns) and len(screws) == n:
         return rows
     entries = tree.gathered_matrix(rows)
-    return [entries[n * i : n * i + n] for i in range(n)]
+    return [[entries[n * max(i, k) + min(i, k)] for k in range(n)] for i in range(n)]  # sums of one half: symmetric to the last bit
 
 
 def mass_matrix(tree: Tree, c: Vector, s: Vector) -> list[Scalar]:

@@ -152,7 +152,9 @@ def load_table(table: Any) -> RobotModel:
     """
     if not isinstance(table, dict) or not {"name", "convention", "rows"} <= table.keys() <= {"name", "convention", "rows", "base"}:
         raise BrokenFileError("DH table: a mapping with the keys name, convention and rows (and perhaps base) is needed")
-    if table["convention"] not in _TABLES:
+    if not isinstance(table["name"], str):
+        raise BrokenFileError(f"DH table: name {table['name']!r} given; a word is needed")
+    if not isinstance(table["convention"], str) or table["convention"] not in _TABLES:
         raise BrokenFileError(f"DH table: convention {table['convention']!r} given; 'modified' or 'standard' is needed")
     kind, load = _TABLES[table["convention"]]
     keys = {key: field.type for key, field in kind.__dataclass_fields__.items()}
@@ -169,7 +171,7 @@ def load_table(table: Any) -> RobotModel:
                 raise BadNumberError(f"{label}: {key} is an integer of {value.bit_length()} bits; at most 53 are read")
         rows.append(kind(**row))
     base = None if table.get("base") is None else Placement.from_matrix(table["base"], "DH table: base")
-    return load(rows, str(table["name"]), base)
+    return load(rows, table["name"], base)
 
 
 def read_table(path: str | os.PathLike[str]) -> RobotModel:

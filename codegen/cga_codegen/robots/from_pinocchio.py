@@ -56,9 +56,13 @@ def _joint_of(model: Any, index: int) -> Joint:
         limits[2:] = model.velocityLimit[joint.idx_v], model.effortLimit[joint.idx_v]
         if kind != "continuous":
             limits[:2] = model.lowerPositionLimit[joint.idx_q], model.upperPositionLimit[joint.idx_q]
-    if np.isnan(limits).any() or limits[0] > limits[1] or min(limits[2:]) < 0.0 or not armature >= 0.0:
-        raise BadNumberError(f"{model.name}: joint {name!r} has limits {limits} (lower, upper, velocity, effort) and armature {armature}")
+    limits = [float(x) for x in limits]
+    if np.isnan(limits).any() or limits[0] > limits[1] or min(limits[2:]) < 0.0 or not 0.0 <= armature < np.inf:
+        given = f"{model.name}: joint {name!r} has limits {limits} (lower, upper, velocity, effort) and armature {armature}"
+        raise BadNumberError(f"{given}; lower <= upper is needed, and of the others none may be negative")
     body = model.inertias[index]
+    if not (np.isfinite(body.inertia).all() and 0.0 <= body.mass < np.inf):
+        raise BadNumberError(f"{model.name}: the body of joint {name!r} has mass {body.mass} or an inertia that is not finite")
     inertia = Inertia.from_matrix(body.mass, body.lever, body.inertia) if body.mass > 0.0 or np.any(body.inertia) else None
     found = pinocchio_joint(model, index, kind, (limits[0], limits[1], limits[2], limits[3]), inertia)
     return follow(found, follows, float(ratio), float(shift), armature)

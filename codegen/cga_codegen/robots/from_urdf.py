@@ -11,7 +11,7 @@ from typing import Any, Literal, cast
 
 import numpy as np
 
-from cga_codegen.robots.errors import BrokenFileError, InertiaWarning
+from cga_codegen.robots.errors import BrokenFileError, DuplicateNameError, InertiaWarning
 from cga_codegen.robots.from_pinocchio import follow, frames_of, pinocchio_joint, placement_of
 from cga_codegen.robots.model import Inertia, Joint, Kind, ModelError, Placement, RobotModel, as_rotation, as_vector
 from cga_codegen.robots.placement import merged
@@ -45,6 +45,8 @@ def load_urdf(
         raise ModelError(f"{file.source}: base='floating' given, but the file has a floating joint of its own")
     if base not in ("fixed", "floating"):
         raise ModelError(f"{file.source}: base={base!r} given; 'fixed' or 'floating' is needed")
+    if base == "floating" and ROOT in file.kinds:
+        raise DuplicateNameError(f"{file.source}: a joint is called {ROOT!r}, which is the floating base; another name is needed")
     try:
         import pinocchio
     except ImportError:

@@ -72,12 +72,13 @@ class Coordinates:
     """What q and v of a robot or a chain hold, and how they move its joints.
 
     names, kinds: one a coordinate, the floating base first if there is one (8 numbers of q, 6 of v), all others one number each.
-    motions: for each joint but the floating one the index among these others, and the ratio.
+    motions: for each joint but the floating one the index among these others, the ratio, and whether the joint slides (what mimics may
+    slide where its leader turns: a rack and its pinion).
     """
 
     names: tuple[str, ...]
     kinds: tuple[Kind, ...]
-    motions: tuple[tuple[int, float], ...]
+    motions: tuple[tuple[int, float, bool], ...]
 
     @property
     def floating(self) -> bool:
@@ -98,7 +99,7 @@ class Coordinates:
     def columns(self) -> tuple[tuple[int, float], ...]:
         """For each screw (six of the floating base, then one a joint) its column among the velocities, and its ratio."""
         first = 6 if self.floating else 0
-        return (*((k, 1.0) for k in range(first)), *((first + k, ratio) for k, ratio in self.motions))
+        return (*((k, 1.0) for k in range(first)), *((first + k, ratio) for k, ratio, _ in self.motions))
 
 
 def coordinates(joints: Sequence[Joint]) -> Coordinates:
@@ -108,7 +109,8 @@ def coordinates(joints: Sequence[Joint]) -> Coordinates:
     kinds = {joint.follows or joint.name: joint.kind for joint in sorted(joints, key=lambda joint: not joint.follows)}
     floating = bool(joints) and joints[0].kind == "floating"
     ones = names[1:] if floating else names
-    motions = [(ones.index(j.follows or j.name), j.ratio if j.follows else 1.0) for j in joints if j.kind != "floating"]
+    moving = [(j, ones.index(j.follows or j.name)) for j in joints if j.kind != "floating"]
+    motions = [(k, j.ratio if j.follows else 1.0, j.kind == "prismatic") for j, k in moving]
     return Coordinates(names, tuple(kinds[name] for name in names), tuple(motions))
 
 
@@ -155,12 +157,8 @@ class RobotModel:
             if k > 0 and "floating" in (joint.kind, self.joints[0].kind if joint.parent < 0 else ""):
                 wrong = "floats; only the base may" if joint.kind == "floating" else "does not hang on the floating base"
                 raise ModelError(f"{self.name}: joint {joint.name!r} {wrong}")
-            leader = next((j for j in self.joints if j.name == joint.follows and not j.follows and j.kind != "floating"), None)
-            if joint.follows and leader is None:
+            if joint.follows and not any(j.name == joint.follows and not j.follows and j.kind != "floating" for j in self.joints):
                 raise ModelError(f"{self.name}: joint {joint.name!r} mimics {joint.follows!r}; the name of an independent joint is needed")
-            if leader and (leader.kind == "prismatic") != (joint.kind == "prismatic"):  # one coordinate is an angle or a length
-                kinds = f"joint {joint.name!r} is {joint.kind} and mimics {leader.name!r}, which is {leader.kind}"
-                raise ModelError(f"{self.name}: {kinds}; both must turn or both slide")
 
     @cached_property
     def coordinates(self) -> Coordinates:

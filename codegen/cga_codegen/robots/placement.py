@@ -64,7 +64,10 @@ class Placement:
     @classmethod
     def from_matrix(cls, matrix: Any, what: str = "placement") -> Placement:
         """From a 4x4 homogeneous matrix; refuses anything that is not a rigid motion."""
-        m = np.array(matrix, dtype=np.float64)
+        try:
+            m = np.array(matrix, dtype=np.float64)
+        except (TypeError, ValueError):  # words, rows of several lengths
+            m = np.empty(0)
         if m.shape != (4, 4) or not np.array_equal(m[3], [0.0, 0.0, 0.0, 1.0]):
             raise ModelError(f"{what}: a 4x4 matrix with last row 0 0 0 1 is needed")
         return cls(as_rotation(m[:3, :3], what), as_vector(m[:3, 3], what))

@@ -36,30 +36,49 @@ def read_xml(path_or_text: str | os.PathLike[str], what: str) -> tuple[ET.Elemen
 
 def file_text(given: str | os.PathLike[str], what: str) -> tuple[str, str]:
     needed = f"a path to a {what} file is needed"
+    if not isinstance(given, str | os.PathLike):
+        raise UnreadableFileError(f"a {type(given).__name__} was given; {needed}")
     if not os.fspath(given):
         raise UnreadableFileError(f"an empty path was given; {needed}")
     path = Path(given)
+    shown = _shown(str(path))
     try:
-        status = path.stat()
-        if stat.S_ISREG(status.st_mode) and status.st_size <= MAX_BYTES:
-            data = path.read_bytes()
+        status = path.stat()  # first: opening some devices moves them
+        size, data = status.st_size, b""
+        if stat.S_ISREG(status.st_mode) and size <= MAX_BYTES:
+            data = _bytes(path)
+            size = max(size, len(data))
     except (OSError, ValueError) as error:  # ValueError: a null byte in the path
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise UnreadableFileError(f"{os.fspath(path)[:200]!r} cannot be read ({reason}); {needed}") from None
     if stat.S_ISDIR(status.st_mode):
-        raise UnreadableFileError(f"{path} is a folder; {needed}")
+        raise UnreadableFileError(f"{shown} is a folder; {needed}")
     if not stat.S_ISREG(status.st_mode):  # a pipe or a device would never end
-        raise UnreadableFileError(f"{path} is not a regular file; {needed}")
-    if status.st_size > MAX_BYTES:
-        raise UnsafeFileError(f"{path}: {status.st_size} bytes given, at most {MAX_BYTES} are read")
+        raise UnreadableFileError(f"{shown} is not a regular file; {needed}")
+    if size > MAX_BYTES:
+        raise UnsafeFileError(f"{shown}: {size} bytes given, at most {MAX_BYTES} are read")
     declared = re.match(rb"""<\?xml[^>]*encoding\s*=\s*["']([\w.-]+)""", data)
     encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else declared[1].decode().lower() if declared else "utf-8"
     if encoding not in ENCODINGS:
-        raise UnreadableFileError(f"{path}: encoding {encoding!r} given; utf-8, utf-16, us-ascii or iso-8859-1 is needed")
+        raise UnreadableFileError(f"{shown}: encoding {encoding!r} given; utf-8, utf-16, us-ascii or iso-8859-1 is needed")
     try:
-        return data.decode(encoding), path.name
+        return data.decode(encoding), _shown(path.name)
     except UnicodeDecodeError as error:
-        raise UnreadableFileError(f"{path}: not text in {encoding} (byte {error.start}); {needed}") from None
+        raise UnreadableFileError(f"{shown}: not text in {encoding} (byte {error.start}); {needed}") from None
+
+
+def _bytes(path: Path) -> bytes:
+    """The file's bytes, at most one more than may be read. Never waits: by now a pipe may stand there, and some files of /proc wait too."""
+    with open(path, "rb", opener=lambda name, flags: os.open(name, flags | getattr(os, "O_NONBLOCK", 0))) as file:
+        data = file.read(MAX_BYTES + 1) if stat.S_ISREG(os.fstat(file.fileno()).st_mode) else None
+    if data is None:
+        raise OSError("it is no file that can be read at once")
+    return data
+
+
+def _shown(name: str) -> str:
+    """The name of a file as a word of a message and of what is generated: characters that cannot be printed become "?"."""
+    return "".join(c if c.isprintable() else "?" for c in name)
 
 
 _BEFORE_ROOT = re.compile(r"\s+|<\?.*?\?>|<!--.*?-->", re.DOTALL)

@@ -78,11 +78,15 @@ class _Check:
         self.where, self.mimic = where, mimic
 
     def robot(self, robot: ET.Element) -> UrdfFile:
-        if robot.tag != "robot":
-            raise BrokenFileError(f"{self.where}: the root element is <{robot.tag[:80]}>; a URDF has <robot>")
         for element in robot.iter():
             if "xacro" in element.tag.partition("}")[0]:  # the tag is {namespace}name
                 raise BrokenFileError(f"{self.where}: contains xacro macros; expand it first with `xacro FILE > robot.urdf`")
+        if robot.tag.endswith("}robot"):  # some programs give the whole file a namespace
+            space = robot.tag.removesuffix("robot")
+            for element in robot.iter():
+                element.tag = element.tag.removeprefix(space)
+        if robot.tag != "robot":
+            raise BrokenFileError(f"{self.where}: the root element is <{robot.tag[:80]}>; a URDF has <robot>")
         title = self.name(robot, "robot")
         links, joints = robot.findall("link"), robot.findall("joint")
         if not links:

@@ -37,9 +37,9 @@ def loaded(model: RobotModel, gravity: Vector3 = (1.0, -2.0, -9.0)) -> RobotMode
 
 
 def following(model: RobotModel) -> RobotModel:
-    """A follower before its leader, two of one leader, one whose leader is on another branch; ratios of both signs."""
-    laws = {"right_bend": ("right_roll", -0.7), "right_slide": ("left_slide", 1.5), "left_lift": ("left_slide", -0.4)}
-    laws["left_bend"] = ("lean", 2.0)
+    """A follower before its leader, two of one leader on another branch, slides that follow turns and the other way; both signs."""
+    laws = {"right_bend": ("right_roll", -0.7), "right_slide": ("left_slide", 1.5), "right_turn": ("left_slide", 0.8)}
+    laws |= {"left_lift": ("left_turn", -0.4), "left_bend": ("lean", 2.0)}
 
     def joint(j: Joint) -> Joint:
         leader, ratio = laws.get(j.name, ("", 1.0))

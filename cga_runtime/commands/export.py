@@ -8,43 +8,24 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from cga_runtime.errors import WrongSizeError
+from cga_runtime.commands.terminal import AsJson, Base, Lock, RobotName, locks, say, show
+from cga_runtime.exporting import export_folder
 from cga_runtime.loading import load_robot
 
 
-def locks(texts: list[str]) -> dict[str, float]:
-    """Joints and values of --lock JOINT=VALUE; WrongSizeError for anything else."""
-    held = {}
-    for text in texts:
-        name, _, value = text.rpartition("=")
-        try:
-            held[name] = float(value)
-        except ValueError:
-            name = ""
-        if not name:
-            raise WrongSizeError(f"--lock: {text!r} given, JOINT=VALUE (rad or m) needed")
-    return held
-
-
 def export(
-    robot: Annotated[str, typer.Argument(help="A bundled robot's name, or a URDF or MJCF file.")],
+    robot: RobotName,
     folder: Annotated[Path, typer.Option("--out", "-o", help="Folder for the library.")],
     frame: Annotated[list[str] | None, typer.Option(help="End frame of a chain (repeat for more). Default: every tip.")] = None,
-    lock: Annotated[list[str] | None, typer.Option(help="A joint to hold, JOINT=VALUE (repeat for more; patterns: left_hip_*=0).")] = None,
-    base: Annotated[str, typer.Option(help="Of a URDF: fixed or floating.")] = "fixed",
+    lock: Lock = None,
+    base: Base = "fixed",
     dynamics: Annotated[bool, typer.Option(help="Also kernels of the whole robot: frames, centre of mass, dynamics.")] = True,
     derivatives: Annotated[int, typer.Option(min=0, max=2, help="Highest derivative of the functions for CasADi.")] = 2,
     kernel: Annotated[list[str] | None, typer.Option(help="A kernel that is wanted (repeat for more). Default: all.")] = None,
-    json_: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    json_: AsJson = False,
 ) -> None:
     """Export a robot's kernels as a C99 library (CMake, header, example) whose functions CasADi loads too, with derivatives."""
-    from cga_runtime.cli import log, show
-    from cga_runtime.exporting import export_folder
-
-    def say(line: str) -> None:
-        log.print(line, highlight=False, markup=False, soft_wrap=True)
-
-    loaded = load_robot(robot, base=base, lock=locks(lock or []))
+    loaded = load_robot(robot, base=base, lock=locks(lock))
     made = export_folder(loaded, folder, frame or (), dynamics=dynamics, derivatives=derivatives, kernels=kernel, say=say)
     functions = {name: function["operations"] for name, function in made["functions"].items()}
     result = {"folder": str(folder), "library": f"cga_{made['robot']}", "functions": functions, "left_out": made["left_out"]}

@@ -1,0 +1,1 @@
+"""The commands of `cga`, one file for each subject; cli.py registers them."""
