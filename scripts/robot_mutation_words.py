@@ -81,9 +81,7 @@ NAMES = (
     *(
         "",
         " ",
-        "universe",
-        "root_joint",
-        "world",
+        *("universe", "root_joint", "world", "base_link", "universe", "root_joint"),
         "a",
         "b",
         "j",

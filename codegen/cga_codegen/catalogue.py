@@ -71,7 +71,7 @@ class Kernel:
     derivative_of: str | None = None
     only: Callable[[Any], bool] = lambda subject: True
     instead: Callable[..., list[Any]] | None = None  # another way to the same values, taken where it costs fewer operations
-    instead_for: Callable[[Any], bool] = lambda subject: True
+    instead_for: Callable[[Any], bool] = lambda tree: bool(tree.bodies)  # without bodies there is nothing to differentiate by
 
 
 def _square(z: Size) -> tuple[int, ...]:
@@ -130,7 +130,8 @@ TREE_KERNELS = (
         dynamics_derivatives.coriolis,
         _square,
         instead=differentiation.coriolis,
-        instead_for=lambda tree: not tree.floating,  # velocities of a floating base are not derivatives of coordinates
+        # velocities of a floating base are not derivatives of coordinates
+        instead_for=lambda tree: not tree.floating and bool(tree.bodies),
     ),
     Kernel("inverse_dynamics_by_q", dynamics_derivatives.inverse_dynamics_by_q, _square, instead=differentiation.inverse_dynamics_by_q),
     Kernel("inverse_dynamics_by_v", dynamics_derivatives.inverse_dynamics_by_v, _square, instead=differentiation.inverse_dynamics_by_v),
@@ -160,7 +161,8 @@ def _layout(subject: Subject) -> Layout:
     if isinstance(subject, Loop):
         arms = (subject.right.joints, subject.left.joints)
         joints = [joint for arm in arms for joint in arm]
-        return Layout(tuple(j.name for j in joints), tuple(j.kind for j in joints), tuple((k, 1.0, j.kind == "prismatic") for k, j in enumerate(joints)))
+        motions = tuple((k, 1.0, joint.kind == "prismatic") for k, joint in enumerate(joints))
+        return Layout(tuple(j.name for j in joints), tuple(j.kind for j in joints), motions)
     at: Coordinates = subject.coordinates
     return Layout(at.names, at.kinds, at.motions)
 

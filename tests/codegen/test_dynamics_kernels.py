@@ -15,7 +15,7 @@ from cga_codegen.catalogue import TREE_KERNELS, MassError, made
 from cga_codegen.kernels import articulated, differentiation, dynamics, dynamics_derivatives, tree_kinematics
 from cga_codegen.kernels.tree import Mass, Tree
 from cga_codegen.robots.from_urdf import load_urdf
-from cga_codegen.robots.model import Inertia, ModelError, Placement
+from cga_codegen.robots.model import Frame, Inertia, ModelError, Placement, RobotModel
 
 STATES = 4
 ROUNDING = 2e-14
@@ -227,6 +227,14 @@ def test_a_body_that_floats_alone():
             close(way.forward_dynamics(alone.tree, **given, v=v, tau=expected), a, 1e-13)
     for kernel in TREE_KERNELS:  # by casadi too, whose vectors of no joints are empty
         assert made(kernel, alone.tree).program.counts().total >= (0 if kernel.name == "mass_matrix" else 1)
+
+
+def test_a_robot_that_does_not_move():
+    """No joint at all: nothing to compute, and nothing to stumble over."""
+    tree = Tree.of(RobotModel("stand", (), (Frame("base", -1, Placement()),)))
+    for kernel in TREE_KERNELS:
+        if not kernel.name.startswith("center_of_mass"):
+            assert made(kernel, tree).program.output.size == (16 if kernel.name == "frames" else 0)
 
 
 def test_joints_without_inertia(skew_model):

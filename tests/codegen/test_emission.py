@@ -157,11 +157,12 @@ def test_c_reports_what_is_not_finite(path, name, units, build, rng):
 def test_bodies_compile_over_a_vector_type(path, units, build, rng):
     """The promise to batches in vector registers: with T a vector of eight doubles, each lane gives what a double gives."""
     unit = units[path]
-    bodies = re.findall(r"static inline void \w+_body\(.*?\n}\n", c_text(unit), re.DOTALL)
-    assert len(bodies) == len(unit.names)
+    bodies = re.findall(r"static (?:inline|CGA_NOINLINE) void \w+_(?:body|part\d+)\(.*?\n}\n", c_text(unit), re.DOTALL)
+    bodies = ["#define CGA_NOINLINE\n", *bodies]  # long ones come in parts
     doors = ""
-    for body in bodies:
-        symbol, arguments = re.match(r"static inline void (\w+)_body\((.*)\)", body).groups()
+    found = [match.groups() for body in bodies if (match := re.match(r"static inline void (\w+)_body\((.*)\)", body))]
+    assert len(found) == len(unit.names)
+    for symbol, arguments in found:
         names = [argument.split()[-1] for argument in arguments.split(",")]
         doors += f"void {symbol}_lanes({arguments});\nvoid {symbol}_lanes({arguments})\n{{\n    {symbol}_body({', '.join(names)});\n}}\n"
     # aligned(8): numpy promises no more; may_alias: the elements are doubles to everyone else
@@ -193,7 +194,7 @@ def test_counts_are_those_of_both_texts(path, name, units):
     operators = [node.op for node in ast.walk(function) if isinstance(node, ast.BinOp)]
     assert {type(op) for op in operators} <= {ast.Mult, ast.Add, ast.Sub, ast.Div}
     assert counts == tuple(sum(isinstance(op, kind) for op in operators) for kind in (ast.Mult, ast.Add | ast.Sub, ast.Div))
-    (body,) = re.findall(rf"void {kernel.record['symbol']}_body\([^{{]*{{\n(.*?)\n}}\n", c_text(kernel.unit), re.DOTALL)
+    body = "\n".join(re.findall(rf"void {kernel.record['symbol']}_(?:body|part\d+)\([^{{]*{{\n(.*?)\n}}\n", c_text(kernel.unit), re.DOTALL))
     assert counts == tuple(len(re.findall(operator, body)) for operator in (r" \* ", r" [+-] ", " / "))
     said = "{} mul, {} add, {} div, 0 sqrt.".format(*counts)
     assert said in ast.get_docstring(function) and said in c_text(kernel.unit)
@@ -207,7 +208,7 @@ def skew_texts():
     pair = ("right_tip", "left_tip")
     arms = [model.chain(frame, root="shelf") for frame in pair]
     made = [chain_unit(model.chain("right_tip")), loop_unit(Loop(loop_name(*pair), *arms)), screws_unit()]
-    made += [chain_unit(robot.chain(frame)) for robot, frames, _ in checked_in_robots() for frame in frames[:1]]
+    made += [chain_unit(robot.chain(frame)) for robot, selection in checked_in_robots() for frame in selection.chains[:1]]
     return {path: text for texts, _ in made for path, text in texts.items()}, [record.to_json() for _, record in made]
 
 

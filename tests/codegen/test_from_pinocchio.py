@@ -121,6 +121,13 @@ def test_a_free_flyer_at_the_root():
     assert ours.gravity == (1.0, -2.0, -9.0) and ours.source == "pinocchio.Model row" and ours.name == "row"
 
 
+def test_a_free_flyer_with_rotors_is_refused():
+    model = row(root=pin.JointModelFreeFlyer())
+    model.armature = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.1])
+    with pytest.raises(UnsupportedJointError, match="^row: joint 'j0' floats and has an armature, which no rotor gives; set it to zero$"):
+        load_pinocchio(model)
+
+
 def test_joints_beside_a_free_flyer_are_refused():
     model = row(root=pin.JointModelFreeFlyer())
     model.addJoint(0, pin.JointModelRX(), PLACED, "beside")

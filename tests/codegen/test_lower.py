@@ -9,6 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from cga_codegen.emit.layout import Layout
 from cga_codegen.emit.lower import LoweringError, Port, Program, lower
 from cga_codegen.emit.print_c import print_body, print_entries, print_file
 from cga_codegen.emit.print_python import print_function, print_module
@@ -85,9 +86,12 @@ def test_c_text_of_a_small_function():
 def test_entries_turn_angles_and_displacements_into_pairs():
     pairs = [(Port(name, (2,)), casadi.SX.sym(name, 2)) for name in ("c", "s")]
     program = lower("f", pairs, Port("out", (1,)), [pairs[0][1][0] * pairs[1][1][1]])
-    turning, mixed = print_entries(program, "s", ["revolute", "continuous"]), print_entries(program, "s", ["revolute", "prismatic"])
+    motions = ((0, 1.0, False), (1, 1.0, False)), ((0, 1.0, False), (1, 1.0, True)), ((1, -0.5, False), (0, 2.0, True))
+    layouts = [Layout(("i", "j"), ("revolute", "continuous" if k == 0 else "prismatic"), motion) for k, motion in enumerate(motions)]
+    turning, mixed, following = (print_entries(program, "s", layout) for layout in layouts)
     assert "for (int j = 0; j < 2; ++j) { c[j] = cos(q[j]); s[j] = sin(q[j]); }" in turning
     assert "c[0] = cos(q[0]); s[0] = sin(q[0]);" in mixed and "c[1] = 1.0; s[1] = q[1];" in mixed
+    assert "c[0] = cos((-0.5 * q[1])); s[0] = sin((-0.5 * q[1]));" in following and "s[1] = (2.0 * q[0]);" in following
 
 
 # ---- values

@@ -5,7 +5,7 @@ import pytest
 
 import cga_runtime as cga
 from cga_codegen.catalogue import identifier
-from cga_codegen.generate import generate, generate_robot
+from cga_codegen.generate import Selection, generate, generate_robot
 from cga_codegen.robots.from_urdf import load_urdf
 from cga_codegen.robots.model import ModelError
 
@@ -35,7 +35,7 @@ HOSTILE = [
 def test_hostile_names_of_links_and_robots(tmp_path, name):
     model = robot(name, title=name)
     assert model.name == name
-    generate([(model, [name], [])], tmp_path / "out", silent)
+    generate([(model, Selection([name], (), ()))], tmp_path / "out", silent)
     assert all(str(path.relative_to(tmp_path)).isascii() for path in (tmp_path / "out").rglob("*"))
     chain = cga.load_robot(name, folder=tmp_path / "out").chain(name)
     quarter = [[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
@@ -52,14 +52,14 @@ def test_names_that_differ_stay_different():
 
 def test_two_subjects_of_one_name_are_refused():
     model = robot("left", "right", "left_with_right")
-    generate_robot(model, ["left", "right"], [("left", "right")], silent)
+    generate_robot(model, Selection(["left", "right"], [("left", "right")], ()), silent)
     with pytest.raises(ModelError, match="^small: two chains or loops would be called robots/small/left_with_right.c; generate"):
-        generate_robot(model, ["left_with_right"], [("left", "right")], silent)
+        generate_robot(model, Selection(["left_with_right"], [("left", "right")], ()), silent)
 
 
 def test_a_frame_that_does_not_move_is_refused(tmp_path):
     with pytest.raises(ModelError, match="^small: no joint lies between the root and 'base'; name a frame that moves$"):
-        generate([(robot("a"), ["base"], [])], tmp_path, silent)
+        generate([(robot("a"), Selection(["base"], (), ()))], tmp_path, silent)
 
 
 def test_a_loop_of_arms_that_share_joints_is_refused():
@@ -68,4 +68,4 @@ def test_a_loop_of_arms_that_share_joints_is_refused():
     joints = "".join(joint.format(*ends) for ends in (("base", "trunk"), ("trunk", "left"), ("trunk", "right")))
     model = load_urdf(f'<robot name="small">{links}{joints}</robot>')
     with pytest.raises(ModelError, match=r"^small: the chains to left and right share joints \(to trunk\); a loop needs separate arms$"):
-        generate_robot(model, ["left"], [("left", "right")], silent)
+        generate_robot(model, Selection(["left"], [("left", "right")], ()), silent)

@@ -10,7 +10,7 @@ import pytest
 from cga_codegen import cli
 from cga_codegen.emit import manifest as writer
 from cga_codegen.emit.manifest import GeneratedFolderError
-from cga_codegen.generate import generate
+from cga_codegen.generate import Selection, generate
 from cga_codegen.robots.from_urdf import load_urdf
 from cga_runtime import StaleKernelError
 from cga_runtime.kernels import Library
@@ -25,7 +25,7 @@ def robot(*names: str):
 
 def write(folder: Path, *names: str) -> None:
     """Generates the chains to all those links."""
-    generate([(robot(*names), names, [])], folder, lambda line: None)
+    generate([(robot(*names), Selection(names, (), ()))], folder, lambda line: None)
 
 
 def files(folder: Path) -> dict[str, bytes]:

@@ -56,6 +56,8 @@ def _joint_of(model: Any, index: int) -> Joint:
         limits[2:] = model.velocityLimit[joint.idx_v], model.effortLimit[joint.idx_v]
         if kind != "continuous":
             limits[:2] = model.lowerPositionLimit[joint.idx_q], model.upperPositionLimit[joint.idx_q]
+    if kind == "floating" and np.any(model.armature[joint.idx_v : joint.idx_v + joint.nv]):
+        raise UnsupportedJointError(f"{model.name}: joint {name!r} floats and has an armature, which no rotor gives; set it to zero")
     limits = [float(x) for x in limits]
     if np.isnan(limits).any() or limits[0] > limits[1] or min(limits[2:]) < 0.0 or not 0.0 <= armature < np.inf:
         given = f"{model.name}: joint {name!r} has limits {limits} (lower, upper, velocity, effort) and armature {armature}"
@@ -101,8 +103,10 @@ def _screw(model: Any, index: int) -> NDArray[np.float64]:
 def _mimicking(screw: NDArray[np.float64]) -> str:
     """Kind of a mimicking joint by its screw, since Pinocchio does not show the joint inside; a ratio of 0 leaves nothing to see."""
     slides, turns = (bool(part.any()) for part in (screw[:3], screw[3:]))
-    kinds = {(True, False): "JointModelPrismaticUnaligned", (False, True): "JointModelRevoluteUnaligned", (True, True): f"{_MIMIC} of a helix"}
-    return kinds.get((slides, turns), f"{_MIMIC} of ratio 0")
+    kinds = {(True, False): "JointModelPrismaticUnaligned", (False, True): "JointModelRevoluteUnaligned"}
+    if not slides and not turns:
+        return f"{_MIMIC} of ratio 0"
+    return kinds.get((slides, turns), f"{_MIMIC} of a helix")
 
 
 def placement_of(pose: Any, what: str) -> Placement:

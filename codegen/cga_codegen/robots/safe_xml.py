@@ -37,7 +37,7 @@ def read_xml(path_or_text: str | os.PathLike[str], what: str) -> tuple[ET.Elemen
 def file_text(given: str | os.PathLike[str], what: str) -> tuple[str, str]:
     needed = f"a path to a {what} file is needed"
     if not isinstance(given, str | os.PathLike):
-        raise UnreadableFileError(f"a {type(given).__name__} was given; {needed}")
+        raise UnreadableFileError(f"{given!r:.80} was given; {needed}")
     if not os.fspath(given):
         raise UnreadableFileError(f"an empty path was given; {needed}")
     path = Path(given)

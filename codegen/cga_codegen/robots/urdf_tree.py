@@ -63,9 +63,6 @@ def leaders(where: str, follows: dict[str, Follow], kinds: dict[str, str]) -> di
                 raise UnsupportedJointError(
                     f"{label} mimics {follow.joint[:80]!r}, which is no moving joint; name one that moves, or ask for mimic='independent'"
                 )
-            if (kinds[follow.joint] == "prismatic") != (kinds[name] == "prismatic"):  # one coordinate is an angle or a length
-                both = f"is {kinds[name]} and mimics {follow.joint!r}, which is {kinds[follow.joint]}"
-                raise UnsupportedJointError(f"{label} {both}; both must turn or both slide (mimic='independent' reads each by itself)")
             if follow.joint in seen:
                 raise UnsupportedJointError(f"{label} mimics itself in the end; one joint must move by itself")
             if follow.joint not in follows:
