@@ -63,7 +63,9 @@ def describe(source: Any, options: Options) -> str:
     from cga_codegen.robots.from_mjcf import load_mjmodel
     from cga_codegen.robots.from_pinocchio import load_pinocchio
 
-    readers = {("pinocchio", "Model"): load_pinocchio, ("mujoco", "MjModel"): load_mjmodel, ("builtins", "dict"): load_table}
+    compiled = partial(load_mjmodel, ignore_constraints=options.ignore_constraints)
+    readers: dict[tuple[str, str], Callable[[Any], Any]]
+    readers = {("pinocchio", "Model"): load_pinocchio, ("mujoco", "MjModel"): compiled, ("builtins", "dict"): load_table}
     kind = type(source)
     for (package, name), reader in readers.items():
         if kind.__name__ == name and kind.__module__.split(".")[0].removesuffix("_pywrap_default") == package:

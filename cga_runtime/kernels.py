@@ -125,7 +125,7 @@ def products() -> SimpleNamespace:
 
 
 class Unit:
-    """Kernels over the same joints (of one chain, or of a loop); compiled together at first use."""
+    """Kernels over the same joints (all of one chain or loop, or one of a whole robot); compiled together at first use."""
 
     def __init__(self, library: Library, path: str) -> None:
         self.library, self.path = library, path

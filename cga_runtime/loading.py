@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,7 @@ def load_robot(
     mimic: str = "follow",
     gravity: Sequence[float] | None = None,
     snap: float | None = None,
+    ignore_constraints: bool = False,
 ) -> Robot:
     """A robot by bundled name, by path to a URDF or MJCF, from a pinocchio.Model or a mujoco.MjModel, from a Denavit-Hartenberg table
     (a dict, or a path to it as .json), or by name from a generated `folder` (made by `cga generate FILE -o DIR`).
@@ -40,11 +42,12 @@ def load_robot(
     pattern, {"left_hip_*": 0.0}; what they carry is then carried by the joint before. mimic: "follow" (a mimicking joint has no coordinate
     of its own), or "independent". gravity: m/s^2 in the base frame, default: the file's, or (0, 0, -9.81). snap: placements this close to
     right angles become right angles, each rotation as a whole; default: none, files are taken as they are (1.5708 is not pi/2).
+    ignore_constraints: of MJCF, leaves out what would close loops (connect, weld, tendons), which is refused otherwise.
 
     Raises UnknownNameError (listing the names), RobotFileError for what cannot be used, WrongSizeError and NotFiniteError for options that
     are no numbers, StaleKernelError for damaged kernels, MissingExtraError where Pinocchio or MuJoCo is needed and not installed.
     """
-    options = _options(base, lock, mimic, gravity, snap)
+    options = replace(_options(base, lock, mimic, gravity, snap), ignore_constraints=bool(ignore_constraints))
     if not isinstance(source, str | os.PathLike):
         return Robot(descriptions.describe(source, options))
     home = library(Path(folder) if folder is not None else generated_folder())

@@ -48,6 +48,7 @@ class Robot(WholeBody):
         self.frame_names: tuple[str, ...] = tuple(f["name"] for f in data["frames"])
         carrying = {joint["parent"] for joint in data["joints"]}
         last = {frame["joint"]: frame["name"] for frame in data["frames"]}
+        self._standing = {frame["name"] for frame in data["frames"] if frame["joint"] < 0}  # fixed to the base
         self.tips: tuple[str, ...] = tuple(last.get(k, j["name"]) for k, j in enumerate(data["joints"]) if k not in carrying)
         self.lower, self.upper = (_bounds(joints, key, BASE, sign) for key, sign in (("lower", -math.inf), ("upper", math.inf)))
         self.velocity_limit, self.effort_limit = (_bounds(joints, key, 6, math.inf) for key in ("velocity", "effort"))
@@ -80,10 +81,12 @@ class Robot(WholeBody):
 
     def jacobian(self, q: ArrayLike, frame: str, reference: str = "LOCAL_WORLD_ALIGNED", order: str = "linear_first") -> Array:
         """Geometric Jacobian of a frame over all velocities, (..., 6, nv); columns of joints that do not move it are zero."""
-        chain = self.chain(frame)
         positions = finite(q, "q")
         if positions.shape[-1:] != (self.nq,):
             raise WrongSizeError(f"q: shape {positions.shape} given, (..., {self.nq}) needed")
+        if frame in self._standing:
+            return np.zeros((*positions.shape[:-1], 6, self.nv))
+        chain = self.chain(frame)
         part = chain.jacobian(positions[..., chain.index], reference, order)
         whole = np.zeros((*part.shape[:-1], self.nv))
         whole[..., chain.columns] = part
@@ -149,7 +152,7 @@ class Chain:
         self.layout, self.joint_names, self.joint_kinds = unit.layout, unit.joint_names, unit.joint_kinds
         self.index, self.columns = robot.layout.places(self.joint_names)
         self.lower, self.upper = robot.lower[self.index], robot.upper[self.index]
-        self.velocity_limit = robot.velocity_limit[self.columns]
+        self.velocity_limit, self.effort_limit = robot.velocity_limit[self.columns], robot.effort_limit[self.columns]
         self._framed: dict[tuple[str, str], Kernel] = {}
 
     @property
@@ -163,7 +166,7 @@ class Chain:
         return self.layout.nq
 
     def __repr__(self) -> str:
-        return f"<Chain {self.robot.name}/{self.frame}: {self.n} joints>"
+        return f"<Chain {self.robot.name}/{self.frame}: {len(self.joint_names)} joints>"
 
     def random(self, rng: np.random.Generator, size: int | tuple[int, ...] | None = None) -> Array:
         """Uniform positions inside the limits, shape (size..., n)."""

@@ -1,8 +1,8 @@
 """How far our kernels are from Pinocchio's and MuJoCo's on random states of any robot: the numbers behind docs/accuracy.md.
 
 Errors are relative by state: the largest difference over the largest entry of the peer's answer (or over a thousandth of its largest in
-all states, where a state's own is smaller). Frames' poses have entries of size one, so that theirs is over at least 1. The condition of the mass
-matrix is measured with them: by it forward dynamics amplify the rounding of whoever computes them.
+all states, where a state's own is smaller). Frames' poses have entries of size one, so that theirs is over at least 1. The condition of
+the mass matrix is measured with them: by it forward dynamics amplify the rounding of whoever computes them.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from cga_runtime.coordinates import Array, count, read
 from cga_runtime.elements import Line, Motor, Point, PointPair
-from cga_runtime.errors import GraspError, UnknownNameError, WrongSizeError
+from cga_runtime.errors import ChainError, GraspError, UnknownNameError, WrongSizeError
 from cga_runtime.robot import Chain, shared_joints
 from cga_runtime.solve.reaching_grasp import Check, hold, number
 from cga_runtime.solve.reaching_problem import Form, bounds, parameters, program
@@ -76,9 +76,13 @@ def reach(
     of the singularities on which q0 lies. conditioning_weight w adds -w log det(S S^T), S the 6 x n screws, to the cost |q - q0|^2 / 2.
 
     Raises WrongSizeError, NotFiniteError, UnknownNameError (a target that does not go with `what`), SchemeError, DegenerateError (a grasp
-    that is no motor, margins at a singular q0, arms without wrist centre), GraspError (shared joints; loop not closed at q0).
+    that is no motor, margins at a singular q0, arms without wrist centre), GraspError (shared joints; loop not closed at q0),
+    ChainError (a floating base).
     """
     chains, loop = _subject(what)
+    for chain in chains:
+        if chain.layout.floating:
+            raise ChainError(f"{chain!r}: its base floats, reaching needs a fixed one: Robot.chain(frame, root=...)")
     targets = _targets(target, len(chains), loop is not None)
     starts, seed, tolerance = count(starts, "starts", 1), count(seed, "seed"), number(tolerance, "tolerance")
     if tolerance <= 0.0:

@@ -4,6 +4,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+import cga_runtime as cga
 from cga_codegen.robots.bundled import bundled_robots as bundled_files
 from cga_runtime.loading import load_robot
 from cga_runtime.robot import FRAMES, Chain
@@ -107,3 +108,15 @@ def test_limits_and_names_are_the_files():
     assert np.array_equal(robot.velocity_limit, peer.velocityLimit) and np.array_equal(robot.effort_limit, peer.effortLimit)
     q = robot.random(np.random.default_rng(24), 500)
     assert q.shape == (500, robot.nq) and (q >= robot.lower).all() and (q <= robot.upper).all()
+
+
+def test_columns_of_frames_that_stand_still_are_zero(skew):
+    q = np.zeros((2, skew.nq))
+    assert np.array_equal(skew.jacobian(q, "base"), np.zeros((2, 6, skew.nv)))
+
+
+def test_reaching_with_a_floating_base_is_refused():
+    chain = load_robot("ur5", base="floating").chain("tool0")
+    assert repr(chain) == "<Chain ur5/tool0: 7 joints>" and chain.effort_limit.shape == (12,)
+    with pytest.raises(cga.ChainError, match=r"^<Chain ur5/tool0: 7 joints>: its base floats, reaching needs a fixed one"):
+        cga.reach(chain, cga.Point([0.1, 0.2, 0.3]))

@@ -20,6 +20,7 @@ from cga_codegen.robots.from_mjmodel import import_mujoco
 from cga_codegen.robots.from_mjmodel import load_mjmodel as load_mjmodel
 from cga_codegen.robots.mjcf_file import MjcfFile, read_mjcf
 from cga_codegen.robots.model import ModelError, RobotModel
+from cga_codegen.robots.safe_xml import shown
 
 MAX_BODIES = 1000
 """MuJoCo's compiler needs quadratic time in the length of a row of bodies."""
@@ -62,7 +63,7 @@ def load_mjcf(
     if refusal is not None:
         words = re.sub(r",? line \d+", "", " ".join(str(refusal).split()))  # lines of our text, not of the file
         named = next((kind for part, kind in _NAMED.items() if part in words), BrokenFileError)
-        raise named(f"{file.source}: MuJoCo refuses it ({words[:300]}); an MJCF that it can compile is needed")
+        raise named(f"{file.source}: MuJoCo refuses it ({shown(words)}); an MJCF that it can compile is needed")
     return load_mjmodel(model, name or file.name, ignore_constraints=ignore_constraints, source=file.source)
 
 

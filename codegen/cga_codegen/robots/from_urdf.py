@@ -34,7 +34,7 @@ def load_urdf(
     Pinocchio: about their common centre of mass, in the joint's frame (m, kg, kg m^2); None if the file gives no mass.
 
     name: the model's name, default: the file's. mimic: a mimicking joint follows its leader (whose coordinate moves both), or, with
-    "independent", is read as a joint of its own. Limits of joints that follow are not read, as in Pinocchio.
+    "independent", is read as a joint of its own. Limits of joints that follow are kept but bind nobody, as in Pinocchio.
 
     Warns (InertiaWarning) of inertias that no body has. Raises a named child of ModelError (`cga_codegen.robots.errors`).
     """

@@ -22,7 +22,7 @@ from cga_codegen.robots.errors import (
     UnsafeFileError,
     UnsupportedJointError,
 )
-from cga_codegen.robots.safe_xml import MAX_BYTES, read_xml
+from cga_codegen.robots.safe_xml import MAX_BYTES, read_xml, shown
 
 MAX_DEPTH = 250
 """Elements within elements; MuJoCo's own parser stops at 500, Python's writer of XML at the recursion limit (1000)."""
@@ -91,7 +91,7 @@ class _Reader:
         """The text for MuJoCo and the number of parts in it. chain: the files that asked for this one as a model to attach."""
         if root.tag != "mujoco":
             hint = "read it as a URDF" if root.tag == "robot" else "an MJCF has <mujoco>"
-            raise BrokenFileError(f"{self.where}: the root element is <{root.tag}>; {hint}")
+            raise BrokenFileError(f"{self.where}: the root element is <{shown(root.tag, 80)}>; {hint}")
         self.included = set()
         clean = ET.Element("mujoco", {"model": root.get("model", "")} if root.get("model") else {})
         for child in root:
@@ -99,7 +99,8 @@ class _Reader:
         for equality in clean.iter("equality"):
             for constraint in equality:
                 if constraint.tag not in _EQUALITIES:
-                    raise UnsupportedJointError(f"{self.where}: an equality <{constraint.tag}> of soft bodies is given; joint is read")
+                    tag = shown(constraint.tag, 80)
+                    raise UnsupportedJointError(f"{self.where}: an equality <{tag}> of soft bodies is given; joint is read")
         models: dict[str, int] = {}
         for model in clean.iter("model"):
             name, size = self.model(model, here, chain)
@@ -156,7 +157,7 @@ class _Reader:
         given = element.get("file")
         label = f"{self.where}: <{element.tag}> names file {(given or '')[:200]!r}"
         if not given:
-            raise BrokenFileError(f"{self.where}: <{element.tag}> names no file; give file=...")
+            raise BrokenFileError(f"{self.where}: <{shown(element.tag, 80)}> names no file; give file=...")
         if self.allowed is None or self.base is None or here is None:
             raise UnsafeFileError(f"{label}, but a text has no folder; say which with folder=...")
         if Path(given).is_absolute() or given.startswith("\\") or given[1:2] == ":":

@@ -41,7 +41,7 @@ def file_text(given: str | os.PathLike[str], what: str) -> tuple[str, str]:
     if not os.fspath(given):
         raise UnreadableFileError(f"an empty path was given; {needed}")
     path = Path(given)
-    shown = _shown(str(path))
+    label = shown(str(path))
     try:
         status = path.stat()  # first: opening some devices moves them
         size, data = status.st_size, b""
@@ -52,19 +52,19 @@ def file_text(given: str | os.PathLike[str], what: str) -> tuple[str, str]:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise UnreadableFileError(f"{os.fspath(path)[:200]!r} cannot be read ({reason}); {needed}") from None
     if stat.S_ISDIR(status.st_mode):
-        raise UnreadableFileError(f"{shown} is a folder; {needed}")
+        raise UnreadableFileError(f"{label} is a folder; {needed}")
     if not stat.S_ISREG(status.st_mode):  # a pipe or a device would never end
-        raise UnreadableFileError(f"{shown} is not a regular file; {needed}")
+        raise UnreadableFileError(f"{label} is not a regular file; {needed}")
     if size > MAX_BYTES:
-        raise UnsafeFileError(f"{shown}: {size} bytes given, at most {MAX_BYTES} are read")
+        raise UnsafeFileError(f"{label}: {size} bytes given, at most {MAX_BYTES} are read")
     declared = re.match(rb"""<\?xml[^>]*encoding\s*=\s*["']([\w.-]+)""", data)
     encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else declared[1].decode().lower() if declared else "utf-8"
     if encoding not in ENCODINGS:
-        raise UnreadableFileError(f"{shown}: encoding {encoding!r} given; utf-8, utf-16, us-ascii or iso-8859-1 is needed")
+        raise UnreadableFileError(f"{label}: encoding {encoding!r} given; utf-8, utf-16, us-ascii or iso-8859-1 is needed")
     try:
-        return data.decode(encoding), _shown(path.name)
+        return data.decode(encoding), shown(path.name)
     except UnicodeDecodeError as error:
-        raise UnreadableFileError(f"{shown}: not text in {encoding} (byte {error.start}); {needed}") from None
+        raise UnreadableFileError(f"{label}: not text in {encoding} (byte {error.start}); {needed}") from None
 
 
 def _bytes(path: Path) -> bytes:
@@ -76,9 +76,9 @@ def _bytes(path: Path) -> bytes:
     return data
 
 
-def _shown(name: str) -> str:
-    """The name of a file as a word of a message and of what is generated: characters that cannot be printed become "?"."""
-    return "".join(c if c.isprintable() else "?" for c in name)
+def shown(words: str, most: int = 300) -> str:
+    """Words of a user's as part of a message or of what is generated: characters that cannot be printed become "?", and it is not long."""
+    return "".join(c if c.isprintable() else "?" for c in words[:most])
 
 
 _BEFORE_ROOT = re.compile(r"\s+|<\?.*?\?>|<!--.*?-->", re.DOTALL)

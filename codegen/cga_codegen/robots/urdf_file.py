@@ -253,5 +253,6 @@ class _Check:
             f'<child link={quoteattr(ends[1])}/><origin xyz="{_decimals(xyz)}" rpy="{_decimals(rpy)}"/>{motion}</joint>'
         )
 
+
 def _decimals(values: Iterable[float]) -> str:
     return " ".join(repr(x) for x in values)
