@@ -57,9 +57,9 @@ def _options(version: Version = False) -> None:
 
 def main() -> None:
     """Entry point: named errors become one sentence on standard error and exit status 2."""
-    logger = logging.getLogger("cga_runtime")
+    logger, said = logging.getLogger("cga_runtime"), _Said()
     logger.setLevel(logging.INFO)
-    logger.addHandler(_Said())
+    logger.addHandler(said)
     warnings.simplefilter("once", KernelWarning)
     warnings.showwarning = lambda message, *rest, **more: log.print(
         f"warning: {message}", style="yellow", highlight=False, markup=False, soft_wrap=True
@@ -69,6 +69,8 @@ def main() -> None:
     except CgaError as error:
         log.print(f"{type(error).__name__}: {error}", style="red", highlight=False, markup=False, soft_wrap=True)
         sys.exit(2)
+    finally:  # a process may go on after a command
+        logger.removeHandler(said)
 
 
 if __name__ == "__main__":

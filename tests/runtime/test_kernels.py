@@ -189,7 +189,7 @@ def test_unknown_names(arm, nao):
         nao.chain("Hand")
     with pytest.raises(UnknownNameError, match="^unknown frame 'Torso'; known: universe, torso"):
         nao.chain("RHand", root="Torso")
-    with pytest.raises(UnknownNameError, match="^unknown robot 'nau'; known: nao, nao_v32.*. Or name a URDF file$"):
+    with pytest.raises(UnknownNameError, match="^unknown robot 'nau'; known: .*, nao, nao_v32, .*. Or name a URDF or MJCF file$"):
         cga.load_robot("nau")
 
 
