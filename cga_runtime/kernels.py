@@ -197,8 +197,9 @@ class Kernel:
                 finite(array, name)
             # sizes are written out: -1 has no meaning where the batch is empty
             flat = [np.moveaxis(a.reshape(*batch, math.prod(shape)), -1, 0) for a, shape in zip(arrays, self.inputs.values(), strict=True)]
-            results = self.unit.text[self.name](*self._body_inputs(flat, np))
-            out.reshape(*batch, math.prod(self.shape))[...] = np.stack(np.broadcast_arrays(*results, np.empty(batch))[:-1], axis=-1)
+            entries = out.reshape(*batch, math.prod(self.shape))
+            for k, result in enumerate(self.unit.text[self.name](*self._body_inputs(flat, np))):
+                entries[..., k] = result
             return self._defined(out)
         single, many = self._entries
         # the interface dictionary is the cheapest way to an address that numpy offers
@@ -272,9 +273,9 @@ class Kernel:
         if [x.numel() for x in given] != list(sizes.values()):
             raise WrongSizeError(f"{self.name} takes {sizes} numbers; {[x.numel() for x in given]} given")
         flat = [x.T.elements() if len(shape) > 1 else x.elements() for x, shape in zip(given, self.inputs.values(), strict=True)]
-        results = casadi.vertcat(*[casadi.SX(r) for r in self.unit.text[self.name](*self._body_inputs(flat, casadi))])
-        rows = self.shape[0]
-        return casadi.reshape(results, results.numel() // rows, rows).T if len(self.shape) > 1 else results
+        results = casadi.vertcat(casadi.SX(0, 1), *[casadi.SX(r) for r in self.unit.text[self.name](*self._body_inputs(flat, casadi))])
+        rows, columns = self.shape[0], math.prod(self.shape[1:])
+        return casadi.reshape(results, columns, rows).T if len(self.shape) > 1 else results
 
     @cached_property
     def casadi(self) -> Any:

@@ -45,7 +45,7 @@ class MassError(ModelError):
     def __init__(self, kernel: str) -> None:
         self.kernel = kernel
         lacks = "nothing that moves has mass" if kernel.startswith("center_of_mass") else "the inertia that a joint carries is zero"
-        super().__init__(f"{kernel} does not exist: {lacks}, and it would be divided by")
+        super().__init__(f"{kernel} does not exist: {lacks}")
 
 
 @dataclass(frozen=True)

@@ -248,7 +248,7 @@ def test_joints_without_inertia(skew_model):
                 lacks = "the inertia that a joint carries is zero" if "mass" not in kernel.name else "nothing that moves has mass"
                 with pytest.raises(MassError) as refusal:
                     made(kernel, Tree.of(model))
-                assert str(refusal.value) == f"{kernel.name} does not exist: {lacks}, and it would be divided by"
+                assert str(refusal.value) == f"{kernel.name} does not exist: {lacks}"
                 assert isinstance(refusal.value, ModelError)
             elif kernel.name in ("frames", "inverse_dynamics", "mass_matrix"):
                 assert made(kernel, Tree.of(model)).program.output.size > 0

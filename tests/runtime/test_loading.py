@@ -134,7 +134,7 @@ def test_a_generated_folder(tmp_path):
     assert {robot.kernel("frames").unit.library.folder, robot.chain("trunk").unit.library.folder} == {tmp_path / "kernels"}
     missing = [name for name in ("center_of_mass", "center_of_mass_jacobian", "forward_dynamics") if name not in robot._record["tree"]]
     assert missing == ["center_of_mass", "center_of_mass_jacobian", "forward_dynamics"]  # the file has no masses: said, and left out
-    assert "skew: left out: center_of_mass does not exist: nothing that moves has mass, and it would be divided by" in said
+    assert "skew: left out: center_of_mass does not exist: nothing that moves has mass" in said
     changed = cga.load_robot("skew", tmp_path / "kernels", lock={"left_*": 0.1}, gravity=(0, 0, 1))
     assert changed.nq == 5 and np.array_equal(changed.gravity_vector, [0, 0, 1])
     with pytest.raises(UnknownNameError, match="^unknown robot 'nao'; known: skew. Or name a URDF or MJCF file$"):

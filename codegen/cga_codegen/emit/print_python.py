@@ -27,8 +27,8 @@ def print_function(program: Program, docstring: str) -> str:
             if node.op not in _PATTERNS:
                 raise LoweringError(f"{program.name}: {node.op} has no printed form; kernels take what is trigonometric as inputs")
             lines.append(f"    t{program.number[k]} = {_PATTERNS[node.op].format(*(_operand(program, a) for a in node.args))}\n")
-    results = ", ".join(_result(program, r) for r in program.results)
-    lines.append(f"    return ({results},)\n")
+    results = "".join(f"{_result(program, r)}, " for r in program.results).strip()  # (x,) is a tuple, (,) is none: no joints, no results
+    lines.append(f"    return ({results})\n")
     return "".join(lines)
 
 
