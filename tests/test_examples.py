@@ -16,7 +16,7 @@ def run(*arguments: str) -> str:
 
 def test_the_readme_example_runs():
     (example,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL)
-    assert run("-c", example) == "True 1T3R\n"
+    assert run("-c", example) == "True (1000, 8)\n"
 
 
 def test_the_tour_of_two_arms():

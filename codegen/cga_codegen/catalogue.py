@@ -70,7 +70,8 @@ class Kernel:
     shape: Shape
     derivative_of: str | None = None
     only: Callable[[Any], bool] = lambda subject: True
-    instead: Callable[..., list[Any]] | None = None  # another way to the same values, taken where it costs fewer operations
+    instead: Callable[..., list[Any]] | None = None  # another way to the same values, taken where it costs no more
+    worth: float = 1.0  # ... than this many times as much
     instead_for: Callable[[Any], bool] = lambda tree: bool(tree.bodies)  # without bodies there is nothing to differentiate by
 
 
@@ -123,6 +124,7 @@ TREE_KERNELS = (
         dynamics.forward_dynamics,
         lambda z: (z.n,),
         instead=articulated.forward_dynamics,
+        worth=1.25,  # it rounds less: at worst of 1000 states of the G1 3e-16 of the exact value, by the mass matrix 5e-12
         instead_for=lambda tree: not any(body.joint.follows for body in tree.bodies),
     ),
     Kernel(
@@ -207,11 +209,12 @@ def _made(kernel: Kernel, function: Callable[..., list[Any]], subject: Subject) 
 
 
 def made(kernel: Kernel, subject: Subject) -> Made:
-    """The kernel for a subject; of two ways to the same values the one with fewer operations."""
+    """The kernel for a subject; of two ways to the same values the one with fewer operations (see `Kernel.worth`)."""
     first = _made(kernel, kernel.function, subject)
     if kernel.instead is None or not kernel.instead_for(subject):
         return first
-    return min(first, _made(kernel, kernel.instead, subject), key=lambda one: one.program.counts().total)
+    second = _made(kernel, kernel.instead, subject)
+    return second if second.program.counts().total < kernel.worth * first.program.counts().total else first
 
 
 def program_by_differentiation(kernel: Kernel, subject: Subject) -> Program:
