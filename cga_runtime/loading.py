@@ -10,7 +10,7 @@ from typing import Any
 
 from cga_runtime import descriptions
 from cga_runtime.descriptions import Options
-from cga_runtime.errors import UnknownNameError, WrongSizeError
+from cga_runtime.errors import RobotFileError, UnknownNameError, WrongSizeError
 from cga_runtime.kernels import finite, generated_folder, library
 from cga_runtime.robot import Robot
 
@@ -38,6 +38,10 @@ def load_robot(
     """A robot by bundled name, by path to a URDF or MJCF, from a pinocchio.Model or a mujoco.MjModel, from a Denavit-Hartenberg table
     (a dict, or a path to it as .json), or by name from a generated `folder` (made by `cga generate FILE -o DIR`).
 
+    A table: {"name": "arm", "convention": "standard", "rows": [{"name": "j1", "d": 0.1, "alpha": 1.57, "lower": -2, "upper": 2}, ...]},
+    keys of a row "a", "alpha", "d", "theta", or with "modified" Khalil and Kleinfinger's "gamma", "b", "alpha", "d", "theta", "r"; m and rad;
+    and as needed "kind" ("revolute", "prismatic", ...), "antecedent" (the row before, in a tree), "sign", "velocity", "effort".
+
     base: of a URDF, "fixed" or "floating"; in MJCF and models the file says. lock: joints held at a value (rad or m), by name or shell
     pattern, {"left_hip_*": 0.0}; what they carry is then carried by the joint before. mimic: "follow" (a mimicking joint has no coordinate
     of its own), or "independent". gravity: m/s^2 in the base frame, default: the file's, or (0, 0, -9.81). snap: placements this close to
@@ -48,6 +52,8 @@ def load_robot(
     are no numbers, StaleKernelError for damaged kernels, MissingExtraError where Pinocchio or MuJoCo is needed and not installed.
     """
     options = replace(_options(base, lock, mimic, gravity, snap), ignore_constraints=bool(ignore_constraints))
+    if isinstance(source, str) and source.lstrip().startswith("<"):
+        raise RobotFileError("the text of a robot description was given; a path to its file is needed")
     if not isinstance(source, str | os.PathLike):
         return Robot(descriptions.describe(source, options))
     home = library(Path(folder) if folder is not None else generated_folder())

@@ -8,7 +8,7 @@ import numpy as np
 import typer
 
 from cga_runtime.commands.terminal import AsJson, numbers, show
-from cga_runtime.errors import WrongSizeError
+from cga_runtime.errors import UnknownNameError, WrongSizeError
 from cga_runtime.loading import load_robot
 
 
@@ -41,7 +41,7 @@ def reach(
 def ik(
     point: Annotated[str, typer.Argument(help="Position x,y,z (m) of the end frame in the robot's base frame.")],
     robot: Annotated[str, typer.Option(help="A bundled robot's name, or a URDF or MJCF file.")] = "panda",
-    frame: Annotated[str, typer.Option(help="End frame of the arm.")] = "panda_link8",
+    frame: Annotated[str, typer.Option(help="End frame of the arm. Default: panda_link8, or a robot's only tip.")] = "",
     rpy: Annotated[str, typer.Option(help="Orientation as roll,pitch,yaw (rad), as in URDF. Default: free.")] = "",
     start: Annotated[str, typer.Option("--q", help="Start positions (rad). Default: random, with a fixed seed.")] = "",
     method: Annotated[str, typer.Option(help="levenberg_marquardt or gauss_newton (paper B's).")] = "levenberg_marquardt",
@@ -52,7 +52,11 @@ def ik(
     from cga_runtime.elements import Point
     from cga_runtime.solve.inverse_kinematics import inverse_kinematics
 
-    arm = load_robot(robot).chain(frame)
+    loaded = load_robot(robot)
+    ends = ("panda_link8",) if robot == "panda" else loaded.tips
+    if not frame and len(ends) != 1:
+        raise UnknownNameError("frame", frame, ends, "Say which with --frame")
+    arm = loaded.chain(frame or ends[0])
     position = numbers(point, "point")
     target = placed(position, numbers(rpy, "--rpy")) if rpy else Point(position)
     q0 = np.array(numbers(start, "--q")) if start else None

@@ -126,14 +126,15 @@ def against_pinocchio(robot: Robot, urdf: Path, count: int = 1000, seed: int = 0
     if sum(inertia.mass for inertia in list(peer.model.inertias)[1:]) > 0.0:
         worst.add("center of mass", robot.center_of_mass(q), theirs["com"], 1.0)
         worst.add("its Jacobian", robot.center_of_mass_jacobian(q), theirs["com_jacobian"])
+    force = 1e-3 * float(np.abs(theirs["id"]).max())  # where gravity or Coriolis forces vanish, rounding is of those that do not
     worst.add("inverse dynamics", robot.inverse_dynamics(q, v, a), theirs["id"])
-    worst.add("bias", robot.bias(q, v), theirs["bias"])
-    worst.add("gravity", robot.gravity(q), theirs["gravity"])
+    worst.add("bias", robot.bias(q, v), theirs["bias"], force)
+    worst.add("gravity", robot.gravity(q), theirs["gravity"], force)
     worst.add("mass matrix", robot.mass_matrix(q), theirs["mass"])
     inertial = 1e-3 * float(np.abs(theirs["mass"]).max())  # rates have size one: where Coriolis terms vanish, rounding is of this kind
     worst.add("Coriolis matrix", robot.coriolis(q, v), theirs["coriolis"], inertial)
     by_q, by_v, _ = robot.inverse_dynamics_derivatives(q, v, a)
-    worst.add("d tau/dq", by_q, theirs["by_q"])
+    worst.add("d tau/dq", by_q, theirs["by_q"], force)
     worst.add("d tau/dv", by_v, theirs["by_v"], inertial)
     condition = float(np.linalg.cond(theirs["mass"]).max())
     if np.isfinite(theirs["fd"]).all() and condition < SINGULAR:

@@ -75,6 +75,12 @@ def test_mistakes_are_one_sentence(command, words, sentence):
     assert status == 2 and not out and err.strip().splitlines()[-1].startswith(sentence) and "Traceback" not in err
 
 
+def test_the_end_frame_may_be_left_out_where_there_is_one(command):
+    assert command("ik", "0.3,0.2,0.5", "--robot", "tm5_700", "--json")[0] == 0
+    status, out, err = command("ik", "0.1,0.1,0.1", "--robot", "nao", "--json")
+    assert status == 2 and not out and err.strip() == "UnknownNameError: unknown frame ''; known: l_gripper, r_gripper. Say which with --frame"
+
+
 def test_generate_for_a_bundled_robot_with_locked_joints(command, tmp_path):
     status, out, _ = command("generate", "tm5_700", "-o", tmp_path / "short", "--lock", "joint_6=0.5", "--lock", "joint_5=-0.2", "--json")
     assert status == 0 and "robots/tm5_700/tree_mass_matrix" in json.loads(out)["units"]

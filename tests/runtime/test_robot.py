@@ -120,3 +120,8 @@ def test_reaching_with_a_floating_base_is_refused():
     assert repr(chain) == "<Chain ur5/tool0: 7 joints>" and chain.effort_limit.shape == (12,)
     with pytest.raises(cga.ChainError, match=r"^<Chain ur5/tool0: 7 joints>: its base floats, reaching needs a fixed one"):
         cga.reach(chain, cga.Point([0.1, 0.2, 0.3]))
+
+
+def test_text_in_place_of_a_path_is_named():
+    with pytest.raises(cga.RobotFileError, match=r"^the text of a robot description was given; a path to its file is needed$"):
+        load_robot(' <robot name="r"><link name="a"/></robot>')
