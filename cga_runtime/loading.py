@@ -39,8 +39,8 @@ def load_robot(
     (a dict, or a path to it as .json), or by name from a generated `folder` (made by `cga generate FILE -o DIR`).
 
     A table: {"name": "arm", "convention": "standard", "rows": [{"name": "j1", "d": 0.1, "alpha": 1.57, "lower": -2, "upper": 2}, ...]},
-    keys of a row "a", "alpha", "d", "theta", or with "modified" Khalil and Kleinfinger's "gamma", "b", "alpha", "d", "theta", "r"; m and rad;
-    and as needed "kind" ("revolute", "prismatic", ...), "antecedent" (the row before, in a tree), "sign", "velocity", "effort".
+    keys of a row "a", "alpha", "d", "theta", or with "modified" Khalil and Kleinfinger's "gamma", "b", "alpha", "d", "theta", "r"; m and
+    rad; as needed "kind" ("revolute", "prismatic", ...), "antecedent" (the row before, in a tree), "sign", "velocity", "effort".
 
     base: of a URDF, "fixed" or "floating"; in MJCF and models the file says. lock: joints held at a value (rad or m), by name or shell
     pattern, {"left_hip_*": 0.0}; what they carry is then carried by the joint before. mimic: "follow" (a mimicking joint has no coordinate

@@ -78,7 +78,8 @@ def test_mistakes_are_one_sentence(command, words, sentence):
 def test_the_end_frame_may_be_left_out_where_there_is_one(command):
     assert command("ik", "0.3,0.2,0.5", "--robot", "tm5_700", "--json")[0] == 0
     status, out, err = command("ik", "0.1,0.1,0.1", "--robot", "nao", "--json")
-    assert status == 2 and not out and err.strip() == "UnknownNameError: unknown frame ''; known: l_gripper, r_gripper. Say which with --frame"
+    assert (status, out) == (2, "")
+    assert err.strip() == "UnknownNameError: unknown frame ''; known: l_gripper, r_gripper. Say which with --frame"
 
 
 def test_generate_for_a_bundled_robot_with_locked_joints(command, tmp_path):
