@@ -28,8 +28,8 @@ HEAD = """# How far the kernels are from Pinocchio and MuJoCo
 Largest relative error over {states} random states a robot (joints anywhere within ±π, rates of size one), by `scripts/accuracy.py`
 (Pinocchio {pinocchio}, MuJoCo {mujoco}). The error of a state is the largest difference over the largest entry of the peer's answer.
 "Kinematics": poses of all frames, and of up to three tips the Jacobians in three frames, their time derivatives and motors; centre of mass
-and its Jacobian. Forward dynamics amplify rounding by the condition of the
-mass matrix (last column), Pinocchio's own included. A dash: the quantity does
+and its Jacobian. Forward dynamics amplify rounding by the condition of the mass matrix (last column), Pinocchio's own included: where
+both differ most, 50 digits find ours 3e-16 and Pinocchio's 2e-13 off on the G1, 4e-7 and 6e-6 on the iCub. A dash: not compared, or it does
 not exist (a joint that carries no inertia).
 
 """
