@@ -23,8 +23,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from cga_runtime.screw_functions import axial, inverse, spiralling
-from cga_runtime.smooth import Field, Scalar, cos_sinc, sinc_slope, sinhc, turn
+from cga_runtime.pairs import paired, rounded
+from cga_runtime.screw_functions import ScrewFunction, axial, inverse, spiralling
+from cga_runtime.smooth import SINHC, Field, Scalar, cos_sinc, cosh_sinh, polynomial, sinc_slope, sinhc, turn
 
 BLADES: dict[str, tuple[str, ...]] = {
     "rotor": ("1", "e12", "e13", "e23"),
@@ -56,7 +57,7 @@ def exp(f: Field, group: str, bivector: Sequence[Scalar], chart: str = "split") 
         case "translator":
             return (1.0 + 0.0 * bivector[0], *(-0.5 * b for b in bivector))
         case "dilator":
-            return f.cosh(-0.5 * bivector[0]), f.sinh(-0.5 * bivector[0])
+            return cosh_sinh(f, -0.5 * bivector[0])
         case "motor":
             plane, v = bivector[:3], bivector[3:]
             rotor, square, sinc = _rotor(f, plane)
@@ -66,14 +67,18 @@ def exp(f: Field, group: str, bivector: Sequence[Scalar], chart: str = "split") 
             slope = along * sinc_slope(f, square, rotor[0], sinc)
             return (*rotor, *(-0.5 * sinc * v[k] - 0.125 * slope * w[k] for k in range(3)), 0.25 * sinc * along)
         case _:
-            plane, half, v = bivector[:3], -0.5 * bivector[3], bivector[4:]
-            rotor, square, sinc = _rotor(f, plane)
+            wide, lift = paired(f)
+            half = -0.5 * bivector[3]
+            plane, v = tuple(lift(b) for b in bivector[:3]), tuple(lift(b) for b in bivector[4:])
+            rotor, square, sinc = _rotor(wide, plane)
+            cosh, sinh = (lift(x) for x in cosh_sinh(f, half))
             if chart == "split":
-                shrunk = f.exp(-half)
+                shrunk = lift(f.exp(-half))
                 moved = tuple(shrunk * m for m in translated(v, rotor))
             else:
-                moved = _spiralled(f, plane, half, v, rotor[0], sinc)
-            return similar(f.cosh(half), f.sinh(half), rotor, moved)
+                g = spiralling(wide, lift(half), cosh, lift(sinhc(f, half)), square, rotor[0], sinc)
+                moved = _spiralled(wide, vector(plane), g, v, square, rotor[0], sinc)
+            return tuple(rounded(f, x) for x in similar(cosh, sinh, rotor, moved))
 
 
 def log(f: Field, group: str, versor: Sequence[Scalar], chart: str = "split") -> tuple[Scalar, ...]:
@@ -101,21 +106,25 @@ def log(f: Field, group: str, versor: Sequence[Scalar], chart: str = "split") ->
             onto = 2.0 * moved[3] / square + slope * _dot(axis, moved[:3])
             return (*plane, *(-factor * moved[k] - onto * axis[k] for k in range(3)))
         case _:
+            wide, lift = paired(f)
             versor = _shortest(f, versor[:4], versor)
-            rotor, even, moved = (tuple(versor[k] for k in block) for block in SIMILARITY_BLOCKS)
+            rotor, even, moved = (tuple(lift(versor[k]) for k in block) for block in SIMILARITY_BLOCKS)
             bending = _dot(rotor[1:], rotor[1:])
-            cosh = f.sqrt(rotor[0] * rotor[0] + bending)
+            cosh = wide.sqrt(rotor[0] * rotor[0] + bending)
             sinh = _dot(rotor, even) / cosh
-            half = f.asinh(sinh)
-            factor = turn(f, rotor[0], bending)[0]
+            half = wide.asinh(sinh)
+            factor = turn(wide, rotor[0], bending)[0]
             plane = tuple(-factor * b for b in rotor[1:])
             if chart == "split":
                 shrinks = sinh < 0.0
-                grown = f.where(shrinks, -sinh, sinh)
-                grown = grown + f.sqrt(1.0 + grown * grown)
-                growth = f.where(shrinks, 1.0 / grown, grown)  # e^half, more accurate than exp of it
-                return (*plane, -2.0 * half, *(-2.0 * growth / cosh * t for t in position(rotor, moved)))
-            return (*plane, -2.0 * half, *_velocity(f, [r / cosh for r in rotor], half, moved, plane))
+                grown = wide.where(shrinks, -sinh, sinh)
+                grown = grown + wide.sqrt(1.0 + grown * grown)
+                growth = wide.where(shrinks, 1.0 / grown, grown)  # e^half, more accurate than exp of it
+                v = tuple(-2.0 * growth / cosh * t for t in position(rotor, moved))
+            else:
+                grown = wide.sqrt(1.0 + sinh * sinh)
+                v = _velocity(wide, tuple(r / cosh for r in rotor), factor * cosh, half, sinh, grown, moved)
+            return tuple(rounded(f, x) for x in (*plane, -2.0 * half, *v))
 
 
 def translated(t: Sequence[Scalar], rotor: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -152,24 +161,30 @@ def _rotor(f: Field, plane: Sequence[Scalar]) -> tuple[tuple[Scalar, ...], Scala
     return (cos, *(-0.5 * sinc * b for b in plane)), square, sinc
 
 
-def _spiralled(f: Field, plane: Sequence[Scalar], half: Scalar, v: Sequence[Scalar], cos: Scalar, sinc: Scalar) -> tuple[Scalar, ...]:
+def _spiralled(
+    f: Field, w: Sequence[Scalar], g: ScrewFunction, v: Sequence[Scalar], square: Scalar, cos: Scalar, sinc: Scalar
+) -> tuple[Scalar, ...]:
     """Components e1i e2i e3i e123i of the exponential of -(B_R + B_D + v ^ ei)/2, which is linear in v.
 
     Along w it is -1/2 f(s) R v; across w, where R and v do not commute, -1/2 f(s + N) v (f: see screw_functions).
     """
-    w = vector(plane)
-    square, along, turned = 0.25 * _dot(plane, plane), _dot(w, v), _cross(w, v)
-    g = spiralling(f, half, sinhc(f, half), square, cos, sinc)
+    along, turned = _dot(v, w), _cross(v, w)
     onto = along * axial(f, g, square, cos, sinc)
-    return (*(-0.5 * (g.across * v[k] + onto * w[k] + g.odd * turned[k]) for k in range(3)), 0.25 * g.along * sinc * along)
+    return (*(-0.5 * (g.across * v[k] + onto * w[k] - g.odd * turned[k]) for k in range(3)), 0.25 * g.along * sinc * along)
 
 
-def _velocity(f: Field, rotor: Sequence[Scalar], half: Scalar, moved: Sequence[Scalar], plane: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """v from what _spiralled makes of it, and from the unit rotor and its logarithm."""
-    w, axis = vector(plane), vector(rotor[1:])
-    square, along, turned = 0.25 * _dot(plane, plane), _dot(w, moved[:3]), _cross(w, moved[:3])
-    cos, sinc = cos_sinc(f, square)
-    g = inverse(spiralling(f, half, sinhc(f, half), square, cos, sinc), 4.0 * square)
+def _velocity(
+    f: Field, rotor: Sequence[Scalar], factor: Scalar, half: Scalar, sinh: Scalar, cosh: Scalar, moved: Sequence[Scalar]
+) -> tuple[Scalar, ...]:
+    """v from what _spiralled makes of it, and from the unit rotor and its logarithm over its bivector part."""
+    axis = vector(rotor[1:])
+    w = tuple(-factor * x for x in axis)
+    square, along, turned = 0.25 * _dot(w, w), _dot(w, moved[:3]), _cross(w, moved[:3])
+    cos, sinc = rotor[0], 2.0 / factor
+    near = half * half < 1.0
+    small = f.where(near, half, 0.0)
+    hyper = f.where(near, polynomial(SINHC, small * small), sinh / f.where(near, 1.0, half))
+    g = inverse(spiralling(f, half, cosh, hyper, square, cos, sinc), 4.0 * square)
     onto = along * axial(f, g, square, cos, sinc)
     ahead = g.along * moved[3]
     return tuple(-2.0 * (g.across * moved[k] + onto * w[k] + g.odd * turned[k] + ahead * axis[k]) for k in range(3))

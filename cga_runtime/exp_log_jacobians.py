@@ -113,7 +113,7 @@ def _mean_exponential(f: Field, scale: Scalar, square: Scalar) -> tuple[Scalar, 
     cos, sinc = cos_sinc(f, quarter)
     growth = f.exp(half)
     halfway = (growth, 0.5 * sinc * growth, 0.25 * versinc(f, quarter, cos, sinc) * growth)  # exp((s + N) / 2)
-    return product(halfway, spiralling(f, half, sinhc(f, half), quarter, cos, sinc)[:3], square)
+    return product(halfway, spiralling(f, half, f.cosh(half), sinhc(f, half), quarter, cos, sinc)[:3], square)
 
 
 def _polynomial(coefficients: tuple[float | Array, ...], n: Array) -> Array:

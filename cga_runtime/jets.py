@@ -112,4 +112,5 @@ JETS = Field(
     asinh=_chain(np.arcsinh, lambda x, y: 1.0 / np.sqrt(1.0 + x * x)),
     atan2=_atan2,
     where=_where,
+    pairs=False,
 )

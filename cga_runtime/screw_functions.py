@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import factorial
 from typing import NamedTuple
 
-from cga_runtime.smooth import Field, Scalar, versinc
+from cga_runtime.smooth import Field, Scalar, first, versinc
 
 TERMS = 11
 """Of the series of f for |z/2| < 1."""
@@ -43,18 +43,18 @@ def inverse(g: ScrewFunction, square: Scalar) -> ScrewFunction:
     return ScrewFunction(1.0 / g.along, -g.odd / size, twice, g.across / size)
 
 
-def spiralling(f: Field, half: Scalar, sinhc: Scalar, square: Scalar, cos: Scalar, sinc: Scalar) -> ScrewFunction:
-    """f(s + N); `half` is s / 2 and `sinhc` its sinh x / x, `square` is |w|^2 / 4, `cos` and `sinc` are those of |w| / 2."""
+def spiralling(f: Field, half: Scalar, cosh: Scalar, sinhc: Scalar, square: Scalar, cos: Scalar, sinc: Scalar) -> ScrewFunction:
+    """f(s + N); `half` is s / 2, `cosh` and `sinhc` those of it, `square` is |w|^2 / 4, `cos` and `sinc` are those of |w| / 2."""
     size = half * half + square
     near = size < 1.0
     x, h = f.where(near, half, 0.0), f.where(near, square, 0.0)
     argument = (x * x, x, 0.25)  # ((s + N) / 2)^2
+    rough = (first(argument[0]), first(x), 0.25)  # all but the last step of pairs
     series: Triple = (1.0 / factorial(2 * TERMS - 1), 0.0, 0.0)
     for k in range(2 * TERMS - 3, 0, -2):
-        a, b, c = product(series, argument, 4.0 * h)
+        a, b, c = product(rough, series, 4.0 * first(h)) if k > 1 else product(argument, series, 4.0 * h)
         series = (a + 1.0 / factorial(k), b, c)
     size = f.where(near, 1.0, size)
-    cosh = f.cosh(half)
     odd = 0.5 * half * (cosh * sinc - sinhc * cos) / size
     twice = 0.25 * (half * half * sinhc * versinc(f, square, cos, sinc) + (sinhc - cosh * sinc)) / size
     across = (half * half * sinhc * cos + square * cosh * sinc) / size

@@ -32,6 +32,8 @@ class Field:
     asinh: Callable[[Scalar], Scalar]
     atan2: Callable[[Scalar, Scalar], Scalar]
     where: Callable[[Any, Scalar, Scalar], Scalar]
+    pairs: bool = True
+    """Whether critical sums are kept in pairs; jets leave them out, their values serve for slopes only."""
 
 
 NUMPY = Field(np.sqrt, np.exp, np.sin, np.cos, np.sinh, np.cosh, np.arcsinh, np.arctan2, np.where)
@@ -62,11 +64,19 @@ ATANC_SLOPE = tuple((-1.0) ** k * 2 * k / (2 * k + 1) for k in range(1, 18))
 
 
 def polynomial(coefficients: Sequence[float], x: Scalar) -> Scalar:
-    """c0 + c1 x + c2 x^2 + ..."""
-    value = coefficients[-1] + 0.0 * x
-    for c in reversed(coefficients[:-1]):
-        value = value * x + c
+    """c0 + c1 x + c2 x^2 + ...; of a pair (see pairs) the terms beyond c1 need the first part only."""
+    rough = first(x)
+    value = coefficients[-1] + 0.0 * rough
+    for c in reversed(coefficients[2:-1]):
+        value = value * rough + c
+    for c in coefficients[1::-1]:
+        value = x * value + c
     return value
+
+
+def first(x: Scalar) -> Scalar:
+    """The first part of a pair, any other scalar itself."""
+    return getattr(x, "high", x)
 
 
 def cos_sinc(f: Field, square: Scalar) -> tuple[Scalar, Scalar]:
@@ -99,6 +109,17 @@ def sinhc(f: Field, x: Scalar) -> Scalar:
     near = x * x < 1.0
     small, far = f.where(near, x, 0.0), f.where(near, 1.0, x)
     return f.where(near, polynomial(SINHC, small * small), f.sinh(far) / far)
+
+
+def cosh_sinh(f: Field, x: Scalar) -> tuple[Scalar, Scalar]:
+    """cosh x and sinh x, each rounded about once: the library's own are off by up to two units in the last place."""
+    sign = f.where(x < 0.0, -1.0, 1.0)
+    growth = f.exp(sign * x)
+    near = x * x < 1.0
+    small = f.where(near, x, 0.0)
+    square = small * small
+    series = small + small * (square * polynomial(SINHC[1:], square))
+    return 0.5 * (growth + 1.0 / growth), f.where(near, series, 0.5 * sign * (growth - 1.0 / growth))
 
 
 def turn(f: Field, a: Scalar, square: Scalar) -> tuple[Scalar, Scalar]:

@@ -33,8 +33,8 @@ PEERS = ("mujoco", "pinocchio")
 
 # The runtime is one line: each room may import itself and what stands before it.
 LINE = (
-    *("errors", "cache", "compile", "layout", "kernels", "coordinates", "multivectors", "smooth", "screw_functions", "exp_log"),
-    *("exp_log_symbolic", "jets", "exp_log_jacobians", "versor_group", "motors", "versors", "conventions", "quaternions"),
+    *("errors", "cache", "compile", "layout", "kernels", "coordinates", "multivectors", "smooth", "pairs", "screw_functions"),
+    *("exp_log", "exp_log_symbolic", "jets", "exp_log_jacobians", "versor_group", "motors", "versors", "conventions", "quaternions"),
     *("configurations", "elements", "descriptions", "workshop", "whole_body", "robot", "loading", "exporting", "spaces"),
     *("solve", "analysis", "control", "kendo", "experiments", "report", "view", "commands"),
 )
