@@ -45,7 +45,7 @@ class Versor:
         Versor.classes[group] = cls
 
     def __init__(self, coefficients: ArrayLike) -> None:
-        raise NotImplementedError  # each class checks its own
+        raise TypeError("Versor is the base of Rotor, Translator, Dilator, Motor and Similarity: make one of these")
 
     @classmethod
     def exp(cls, bivector: ArrayLike, chart: str = "split") -> Self:
