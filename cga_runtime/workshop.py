@@ -19,6 +19,7 @@ from cga_runtime.cache import cache_folder, digest, locked
 from cga_runtime.descriptions import DEFAULT, Options, read_robot, require_pinocchio
 from cga_runtime.errors import (
     CacheError,
+    CgaError,
     ChainError,
     DegenerateError,
     FolderError,
@@ -46,17 +47,33 @@ class ChainOrder:
 
 def chain_unit(order: ChainOrder) -> Unit:
     """Kernels of any chain."""
-    return _unit({"chain": asdict(order)}, lambda: _chain(order))
+    return _unit({"chain": asdict(order)}, lambda units: units.chain_unit(_chain(order)))
 
 
 def loop_unit(right: ChainOrder, left: ChainOrder) -> Unit:
     """Kernels of any two chains as a closed loop."""
-    return _unit({"right": asdict(right), "left": asdict(left)}, lambda: _loop(right, left))
+    return _unit({"right": asdict(right), "left": asdict(left)}, lambda units: units.loop_unit(_loop(right, left)))
 
 
 def tree_unit(description: str, kernel: str) -> Unit:
     """One kernel of a whole robot."""
-    return _unit({"tree": description, "kernel": kernel}, lambda: _model(description))
+    return _unit({"tree": description, "kernel": kernel}, lambda units: units.tree_unit(_model(description), kernel), DegenerateError)
+
+
+@dataclass(frozen=True)
+class TeamOrder:
+    """What defines a cooperative system: the primitive, the chains, and for each the system's coordinate of each of its own."""
+
+    primitive: str
+    chains: tuple[ChainOrder, ...]
+    index: tuple[tuple[int, ...], ...]
+    names: tuple[str, ...]
+    kinds: tuple[str, ...]
+
+
+def team_unit(order: TeamOrder) -> Unit:
+    """Kernels of a cooperative system from its joint positions."""
+    return _unit({"team": asdict(order)}, lambda units: units.team_unit(_team(order)))
 
 
 def chain_geometry(order: ChainOrder) -> list[tuple[bool, Any, Any, Any]]:
@@ -134,10 +151,20 @@ def _loop(right: ChainOrder, left: ChainOrder) -> Any:
     return Loop(loop_name(right.frame, left.frame), _chain(right), _chain(left))
 
 
-def _unit(key: dict[str, Any], subject: Callable[[], Any]) -> Unit:
-    """The cached unit of a key, generated now if it is not there or damaged."""
-    from cga_codegen import __version__
-    from cga_codegen.catalogue import CHAIN_KERNELS, LOOP_KERNELS, TREE_KERNELS, chain_unit, loop_unit, tree_unit
+def _team(order: TeamOrder) -> Any:
+    from cga_codegen.kernels.cooperative import Team
+    from cga_codegen.kernels.primitives import KINDS
+
+    chains = tuple(_chain(chain) for chain in order.chains)
+    name = "_".join([order.primitive, *(chain.frame for chain in order.chains)])
+    return Team(name, KINDS[order.primitive], chains, order.index, order.names, order.kinds)
+
+
+def _unit(key: dict[str, Any], make: Callable[[Any], Any], refusal: type[CgaError] = ChainError) -> Unit:
+    """The cached unit of a key, generated now by `make` (given the generator's module of units) if it is not there or damaged; what the
+    generator refuses is raised as `refusal`."""
+    from cga_codegen import __version__, units
+    from cga_codegen.catalogue import CHAIN_KERNELS, LOOP_KERNELS, TREE_KERNELS
     from cga_codegen.emit.lower import LoweringError
     from cga_codegen.emit.manifest import GeneratedFolderError, manifest_text, write_folder
     from cga_codegen.robots.model import ModelError
@@ -148,18 +175,14 @@ def _unit(key: dict[str, Any], subject: Callable[[], Any]) -> Unit:
     try:
         with locked(folder):
             if not _complete(folder):
-                made = subject()
-                if "tree" in key:
-                    texts, record = tree_unit(made, key["kernel"])
-                else:
-                    texts, record = loop_unit(made) if "right" in key else chain_unit(made)
+                texts, record = make(units)
                 operations = sum(kernel.counts.total for kernel in record.kernels)
                 LOG.info("%s: %d kernels, %d operations", record.title, len(record.kernels), operations)
                 with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".build-") as build:
                     write_folder(Path(build) / "fresh", texts, manifest_text(__version__, texts, [record], {}))
                     _install(Path(build) / "fresh", folder)
     except (ModelError, LoweringError) as error:
-        raise (ChainError if "tree" not in key else DegenerateError)(str(error)) from error
+        raise refusal(str(error)) from error
     except GeneratedFolderError as error:
         raise CacheError(str(error)) from error
     except OSError as error:

@@ -11,7 +11,7 @@ from string import Template
 from typing import Any
 
 from cga_codegen import __version__
-from cga_codegen.catalogue import CHAIN_KERNELS, TREE_KERNELS, Kernel, identifier
+from cga_codegen.catalogue import CHAIN_KERNELS, TREE_KERNELS, Kernel
 from cga_codegen.emit.manifest import digest, write_folder
 from cga_codegen.emit.print_c import PREAMBLE, print_entries
 from cga_codegen.emit.print_external import print_bodies, print_external, print_interface
@@ -19,6 +19,7 @@ from cga_codegen.export_texts import Exported, declarations, frames, positions, 
 from cga_codegen.externals import Subject, externals
 from cga_codegen.kernels.tree import Tree
 from cga_codegen.robots.model import ModelError, RobotModel
+from cga_codegen.units import identifier
 
 Say = Callable[[str], None]
 

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from cga_codegen.catalogue import Kernel, identifier
+from cga_codegen.catalogue import Kernel
 from cga_codegen.emit.layout import BASE, Layout
 from cga_codegen.emit.lower import Program
 from cga_codegen.emit.print_external import External
 from cga_codegen.externals import Subject, Symbols
 from cga_codegen.kernels.tree import Tree
+from cga_codegen.units import identifier
 
 _UNITS = {"prismatic": "m", "floating": f"motor of the base: {BASE} numbers, 1 e12 e13 e23 e1i e2i e3i e123i"}
 _SHOWN = ("pose", "jacobian_local_world_aligned", "inverse_dynamics")

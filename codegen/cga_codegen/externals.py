@@ -16,7 +16,7 @@ from typing import Any
 
 import casadi
 
-from cga_codegen.catalogue import CHAIN_KERNELS, INPUTS, TREE_KERNELS, Kernel, Size, made
+from cga_codegen.catalogue import CHAIN_KERNELS, INPUTS, TREE_KERNELS, Kernel, Size
 from cga_codegen.emit.layout import Layout
 from cga_codegen.emit.lower import Node, Port, Program, lower
 from cga_codegen.emit.print_external import OF_Q, External, Output, Pattern
@@ -24,6 +24,7 @@ from cga_codegen.kernels import coordinate_derivatives as by_coordinates
 from cga_codegen.kernels import dynamics_partials
 from cga_codegen.kernels.tree import Tree
 from cga_codegen.robots.model import Chain
+from cga_codegen.units import made
 
 Function = Callable[..., list[Any]]
 Subject = Chain | Tree

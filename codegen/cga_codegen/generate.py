@@ -1,4 +1,4 @@
-"""Assembles generated folders: the algebra's tables, the brackets of screws, and the kernels of robots, with their manifest."""
+"""Assembles generated folders: the algebra's tables, what serves every robot, and the kernels of robots, with their manifest."""
 
 from __future__ import annotations
 
@@ -10,13 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from cga_codegen import __version__
-from cga_codegen.catalogue import TREE_KERNELS, MassError, chain_unit, identifier, loop_unit, screws_unit, tree_unit
+from cga_codegen.catalogue import TREE_KERNELS, MassError
 from cga_codegen.emit.manifest import UnitRecord, manifest_text, write_folder
 from cga_codegen.emit.print_products import product_files
 from cga_codegen.kernels.closed_chain import Loop
+from cga_codegen.kernels.primitives import KINDS
 from cga_codegen.robots.bundled import bundled_robots
 from cga_codegen.robots.from_urdf import load_urdf
 from cga_codegen.robots.model import ModelError, RobotModel
+from cga_codegen.units import chain_unit, cooperative_unit, identifier, loop_unit, screws_unit, tree_unit
 
 
 @dataclass(frozen=True)
@@ -91,14 +93,14 @@ def generate_robot(model: RobotModel, selection: Selection, say: Progress) -> tu
 def generate(robots: Sequence[tuple[RobotModel, Selection]], folder: Path, say: Progress) -> None:
     """Writes a complete generated folder: the algebra, and the chosen kernels of the given robots."""
     files = dict(product_files())
-    screws_text, screws_record = screws_unit()
-    files.update(screws_text)
-    units, records = [screws_record], {}
+    units, records = [], {}
+    for texts, record in (screws_unit(), *(cooperative_unit(kind) for kind in KINDS.values())):
+        files.update(texts)
+        units.append(record)
     for model, selection in robots:
-        texts, made, record = generate_robot(model, selection, say)
+        texts, made, records[model.name] = generate_robot(model, selection, say)
         files.update(texts)
         units += made
-        records[model.name] = record
     write_folder(folder, files, manifest_text(__version__, files, units, records))
 
 

@@ -24,10 +24,11 @@ static inline int cga_not_finite(const double *x, int n)
 #define CGA_NOINLINE
 #endif
 
-/* T is the number type of the bodies, K(x) a constant of that type. */
+/* T is the number type of the bodies, K(x) a constant of that type, ROOT(x) a square root. */
 #ifndef T
 #define T double
 #define K(x) (x)
+#define ROOT(x) sqrt(x)
 #endif
 
 /* Determinant of six screws (6x6, row-major, one screw a column), by Laplace expansion over shared 3x3 minors. From cga_codegen.kernels.screws.bracket.

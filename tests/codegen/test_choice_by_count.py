@@ -4,11 +4,12 @@ import math
 
 import pytest
 
-from cga_codegen.catalogue import TREE_KERNELS, made, tree_unit
+from cga_codegen.catalogue import TREE_KERNELS
 from cga_codegen.kernels import articulated, differentiation, dynamics, dynamics_derivatives
 from cga_codegen.kernels.tree import Tree
 from cga_codegen.robots.bundled import load_bundled
 from cga_codegen.robots.model import Frame, Inertia, Joint, Placement, RobotModel
+from cga_codegen.units import made, tree_unit
 
 KERNELS = {kernel.name: kernel for kernel in TREE_KERNELS}
 

@@ -11,11 +11,12 @@ import pinocchio
 import pytest
 from joint_by_joint import H, Subject, floated, loaded, make
 
-from cga_codegen.catalogue import TREE_KERNELS, MassError, made
+from cga_codegen.catalogue import TREE_KERNELS, MassError
 from cga_codegen.kernels import articulated, differentiation, dynamics, dynamics_derivatives, tree_kinematics
 from cga_codegen.kernels.tree import Mass, Tree
 from cga_codegen.robots.from_urdf import load_urdf
 from cga_codegen.robots.model import Frame, Inertia, ModelError, Placement, RobotModel
+from cga_codegen.units import made
 
 STATES = 4
 ROUNDING = 2e-14

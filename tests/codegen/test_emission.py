@@ -15,10 +15,11 @@ import numpy as np
 import pytest
 
 import cga_runtime as cga
-from cga_codegen.catalogue import CHAIN_KERNELS, chain_unit, loop_unit, screws_unit
+from cga_codegen.catalogue import CHAIN_KERNELS
 from cga_codegen.generate import checked_in_robots, loop_name
 from cga_codegen.kernels.closed_chain import Loop
 from cga_codegen.robots.from_urdf import load_urdf
+from cga_codegen.units import chain_unit, loop_unit, screws_unit
 from cga_runtime.compile import find_compiler
 from cga_runtime.kernels import Kernel, Library, Unit, generated_folder
 

@@ -9,11 +9,12 @@ from joint_by_joint import Subject, base_rate, floated, make, motor_of
 
 from cga_codegen.algebra.blade_types import MOTOR, TWIST
 from cga_codegen.algebra.multivector import Multivector
-from cga_codegen.catalogue import CHAIN_KERNELS, chain_unit, made
+from cga_codegen.catalogue import CHAIN_KERNELS
 from cga_codegen.kernels import kinematics, versors
 from cga_codegen.kernels.walk import gather, spread
 from cga_codegen.robots.bundled import load_bundled
 from cga_codegen.robots.model import Placement
+from cga_codegen.units import chain_unit, made
 
 FRAMES = ("LOCAL", "WORLD", "LOCAL_WORLD_ALIGNED")
 STATES = 4

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import cga_runtime as cga
-from cga_codegen.catalogue import identifier
 from cga_codegen.generate import Selection, generate, generate_robot
 from cga_codegen.robots.from_urdf import load_urdf
 from cga_codegen.robots.model import ModelError
+from cga_codegen.units import identifier
 
 
 def silent(_: str) -> None:

@@ -14,7 +14,7 @@ from cga_codegen.algebra.products import PRODUCTS, UNARY, product, unary, wedge_
 from cga_codegen.algebra.signature import CGA, G3, G51, PGA, AlgebraError, Signature, grade
 
 SIGNATURES = [G3, PGA, CGA, G51, Signature.orthogonal(1, 2, 1)]
-DATA = json.loads((Path(__file__).parents[1] / "data" / "similarity_products.json").read_text())
+DATA = json.loads((Path(__file__).parents[1] / "data" / "similarity.json").read_text())
 NAMES = {"geometric": "gp", "outer": "op", "inner": "ip", "left_contraction": "lc"}
 
 HALF = Fraction(1, 2)

@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 from joint_by_joint import make
 
-from cga_codegen.catalogue import CHAIN_KERNELS, TREE_KERNELS, _layout, made
+from cga_codegen.catalogue import CHAIN_KERNELS, TREE_KERNELS
 from cga_codegen.emit import print_c
 from cga_codegen.emit.lower import Port, lower
 from cga_codegen.emit.print_c import print_body, print_entries, print_file
 from cga_codegen.emit.print_python import print_function, print_module
 from cga_codegen.kernels.tree import Tree
 from cga_codegen.robots.bundled import load_bundled
+from cga_codegen.units import _layout, made
 from cga_runtime.compile import find_compiler
 
 FLAGS = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1", "-ffp-contract=off", "-fPIC", "-shared")

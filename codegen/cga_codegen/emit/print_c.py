@@ -1,7 +1,7 @@
 """Prints programs as C99: one body of plain assignments over a type T, and the entry points around it.
 
-The body is free of branches, calls and casts and reads and writes whole elements only, so that T may be a vector type. What is
-trigonometric happens in the entry points: they turn joint angles q into (c, s) or (ch, sh) and then call the body.
+The body is free of branches, casts and calls (but for the square root) and reads and writes whole elements only, so that T may be a vector
+type. What is trigonometric happens in the entry points: they turn joint angles q into (c, s) or (ch, sh) and then call the body.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from cga_codegen.emit.lower import LoweringError, Node, Program
 PART = 2000
 """Operations of one C function: gcc compiles longer ones slowly (29 joints, 21,000 operations: 36 s in one function, 9 s in such parts)."""
 
-_PATTERNS = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}"}
+_PATTERNS = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "sqrt": "ROOT({})"}
 
 PREAMBLE = """\
 #include <math.h>
@@ -41,10 +41,11 @@ static inline int cga_not_finite(const double *x, int n)
 #define CGA_NOINLINE
 #endif
 
-/* T is the number type of the bodies, K(x) a constant of that type. */
+/* T is the number type of the bodies, K(x) a constant of that type, ROOT(x) a square root. */
 #ifndef T
 #define T double
 #define K(x) (x)
+#define ROOT(x) sqrt(x)
 #endif
 """
 

@@ -24,10 +24,11 @@ static inline int cga_not_finite(const double *x, int n)
 #define CGA_NOINLINE
 #endif
 
-/* T is the number type of the bodies, K(x) a constant of that type. */
+/* T is the number type of the bodies, K(x) a constant of that type, ROOT(x) a square root. */
 #ifndef T
 #define T double
 #define K(x) (x)
+#define ROOT(x) sqrt(x)
 #endif
 
 /* Derivative of inverse dynamics by q, n x n; of a floating base by motions in its own axes, as in Pinocchio. From cga_codegen.kernels.dynamics_derivatives.inverse_dynamics_by_q.

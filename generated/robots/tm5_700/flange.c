@@ -24,10 +24,11 @@ static inline int cga_not_finite(const double *x, int n)
 #define CGA_NOINLINE
 #endif
 
-/* T is the number type of the bodies, K(x) a constant of that type. */
+/* T is the number type of the bodies, K(x) a constant of that type, ROOT(x) a square root. */
 #ifndef T
 #define T double
 #define K(x) (x)
+#define ROOT(x) sqrt(x)
 #endif
 
 /* Motor of the end frame in the root frame, components 1 e12 e13 e23 e1i e2i e3i e123i, unit norm. From cga_codegen.kernels.versors.motor.

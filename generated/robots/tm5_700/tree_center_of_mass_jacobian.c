@@ -24,10 +24,11 @@ static inline int cga_not_finite(const double *x, int n)
 #define CGA_NOINLINE
 #endif
 
-/* T is the number type of the bodies, K(x) a constant of that type. */
+/* T is the number type of the bodies, K(x) a constant of that type, ROOT(x) a square root. */
 #ifndef T
 #define T double
 #define K(x) (x)
+#define ROOT(x) sqrt(x)
 #endif
 
 /* Jacobian (3 x n) of the centre of mass: what a joint carries moves with it, column (w x h + m v) / total mass. From cga_codegen.kernels.tree_kinematics.center_of_mass_jacobian.

@@ -24,10 +24,11 @@ static inline int cga_not_finite(const double *x, int n)
 #define CGA_NOINLINE
 #endif
 
-/* T is the number type of the bodies, K(x) a constant of that type. */
+/* T is the number type of the bodies, K(x) a constant of that type, ROOT(x) a square root. */
 #ifndef T
 #define T double
 #define K(x) (x)
+#define ROOT(x) sqrt(x)
 #endif
 
 /* a = M^-1 (tau - C v - g), by the sparse factorisation of the mass matrix (see articulated.py for the other way). From cga_codegen.kernels.dynamics.forward_dynamics.

@@ -1,0 +1,135 @@
+"""A cooperative system's methods as casadi functions, put together from the expressions of its kernels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from cga_runtime.errors import UnknownNameError
+from cga_runtime.smooth import casadi_field
+from cga_runtime.spaces.charts import SEAM
+from cga_runtime.spaces.cooperative_kernels import BY_POINTS, OF_POINTS, RATES, Source
+from cga_runtime.spaces.primitive_kinds import Primitive
+from cga_runtime.spaces.similarity_twists import (
+    Parts,
+    log_rate_of_body,
+    log_rate_of_space,
+    logarithm,
+    parts_of,
+    relative,
+    space_twist,
+)
+
+Expression = Any
+
+
+class _System:
+    """Expressions of one system over symbols q, v, V_d in one chart."""
+
+    def __init__(self, about: Primitive, source: Source, n: int, chart: float | None) -> None:
+        import casadi
+
+        self.about, self.source = about, source
+        self.field = replace(casadi_field(), pairs=False)
+        self.q, self.v, self.target = casadi.SX.sym("q", n), casadi.SX.sym("v", n), casadi.SX.sym("target", 12)
+        self.chart: Any = chart
+        if chart is None:
+            height = source.symbolic("guard", self.q)[1]
+            self.chart = casadi.if_else(height < SEAM, -1.0, 1.0) if about.reference is not None else 1.0
+
+    def kernel(self, name: str) -> Expression:
+        return self.source.symbolic(name, self.q, self.chart, self.v)
+
+    def parts(self) -> Parts:
+        entries = self.kernel("parts").elements()
+        return entries[:4], entries[4:7], entries[7]
+
+    def log(self) -> Expression:
+        return _column(logarithm(self.field, self.parts()))
+
+    def bivector_jacobian(self) -> Expression:
+        return _stacked(log_rate_of_body(self.field, self.parts(), _rows(self.kernel("geometric_jacobian"))))
+
+    def space_jacobian(self) -> Expression:
+        return _stacked(space_twist(self.parts(), _rows(self.kernel("geometric_jacobian"))))
+
+    def _off(self) -> Parts:
+        return relative(self.field, self.parts(), parts_of(self.field, self.target.elements()))
+
+    def error(self) -> Expression:
+        return _column(logarithm(self.field, self._off()))
+
+    def error_jacobian(self) -> Expression:
+        return _stacked(log_rate_of_space(self.field, self._off(), _rows(-self.kernel("geometric_jacobian"))))
+
+    def _moving(self) -> Expression:
+        return self.kernel("horizontal_jacobian")[self.about.rows, :]
+
+    def nullspace(self) -> Expression:
+        import casadi
+
+        rows = self._moving()
+        return casadi.SX.eye(rows.shape[1]) - rows.T @ casadi.solve(rows @ rows.T, rows)
+
+    def manipulability(self) -> Expression:
+        import casadi
+
+        rows = self._moving()
+        pivots = casadi.ldl(rows @ rows.T)[0]
+        whole: Expression = 1
+        for pivot in casadi.SX(pivots).nz[:].elements():
+            whole = whole * pivot
+        return casadi.sqrt(whole)
+
+    def manipulability_gradient(self) -> Expression:
+        import casadi
+
+        return casadi.gradient(self.manipulability(), self.q)
+
+
+def _column(values: Any) -> Expression:
+    import casadi
+
+    return casadi.vertcat(*values)
+
+
+def _stacked(rows: Any) -> Expression:
+    import casadi
+
+    return casadi.vertcat(*rows)
+
+
+def _rows(matrix: Any) -> list[Expression]:
+    return [matrix[k, :] for k in range(matrix.shape[0])]
+
+
+PUT_TOGETHER: dict[str, Callable[[_System], Expression]] = {
+    "log": _System.log,
+    "bivector_jacobian": _System.bivector_jacobian,
+    "space_jacobian": _System.space_jacobian,
+    "error": _System.error,
+    "error_jacobian": _System.error_jacobian,
+    "nullspace": _System.nullspace,
+    "manipulability": _System.manipulability,
+    "manipulability_gradient": _System.manipulability_gradient,
+}
+"""What is no kernel but stands on kernels."""
+NAMES = ("points", "point_jacobian", *(name for name in OF_POINTS if name != "guard"), *BY_POINTS, *RATES, *PUT_TOGETHER)
+"""What there is as a casadi function."""
+
+
+def function(about: Primitive, source: Source, name: str, n: int, chart: float | None) -> Any:
+    """The method `name` as a casadi.Function of q, and v or target where it needs them. Raises UnknownNameError."""
+    import casadi
+
+    if name not in NAMES:
+        raise UnknownNameError("function of a cooperative system", name, NAMES)
+    system = _System(about, source, n, chart)
+    expression = PUT_TOGETHER[name](system) if name in PUT_TOGETHER else system.kernel(name)
+    inputs = [("q", system.q)]
+    if name in RATES:
+        inputs.append(("v", system.v))
+    if name.startswith("error"):
+        inputs.append(("target", system.target))
+    return casadi.Function(name, [symbol for _, symbol in inputs], [casadi.densify(expression)], [key for key, _ in inputs], [name])
