@@ -22,6 +22,7 @@ from cga_runtime.coordinates import count
 from cga_runtime.errors import UnknownNameError, WrongSizeError
 from cga_runtime.kernels import Kernel, Library, Unit, finite
 from cga_runtime.layout import BASE, Layout
+from cga_runtime.motors import Motor
 from cga_runtime.whole_body import WholeBody
 from cga_runtime.workshop import ChainOrder
 
@@ -96,14 +97,14 @@ class Robot(WholeBody):
         self,
         frame: str,
         root: str | None = None,
-        placement: ArrayLike | None = None,
+        placement: ArrayLike | Motor | None = None,
         offset: Sequence[float] = (0.0, 0.0, 0.0),
-        tool: ArrayLike | None = None,
+        tool: ArrayLike | Motor | None = None,
     ) -> Chain:
         """The chain from the base (or the frame `root`) to `frame`.
 
-        placement: 4x4 pose of the robot's base (with `root`: of the root frame) in the world; chains with another placement belong to
-        another robot of the same kind. tool: 4x4 pose of the end frame in `frame`. offset: a point fixed in the end frame (m), which
+        placement: pose of the robot's base (with `root`: of the root frame) in the world, a 4x4 matrix or a Motor; chains with another placement belong to
+        another robot of the same kind. tool: pose of the end frame in `frame`, likewise. offset: a point fixed in the end frame (m), which
         becomes its origin. Kernels of chains that are not checked in are generated at first use and kept in the cache. Raises
         UnknownNameError, WrongSizeError, ChainError, DegenerateError (a placement or tool that is no rigid motion).
         """
@@ -239,10 +240,10 @@ def _ordered(rows: Array, order: str, axis: int) -> Array:
     return rows if order == "linear_first" else reorder(rows, TWIST_ORDERS, "linear_first", order, axis)
 
 
-def _pose(pose: ArrayLike | None, what: str) -> tuple[tuple[float, ...], ...] | None:
+def _pose(pose: ArrayLike | Motor | None, what: str) -> tuple[tuple[float, ...], ...] | None:
     if pose is None:
         return None
-    matrix = finite(pose, what)
+    matrix = pose.pose() if isinstance(pose, Motor) else finite(pose, what)
     if matrix.shape != (4, 4):
         raise WrongSizeError(f"{what}: shape {matrix.shape} given, (4, 4) needed")
     return tuple(tuple(float(x) for x in row) for row in matrix)

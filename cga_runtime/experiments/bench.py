@@ -103,7 +103,9 @@ def measure(contest: Contest, rounds: int = ROUNDS) -> dict[str, Any]:
 
 def run(rounds: int = ROUNDS) -> list[dict[str, Any]]:
     """All rows."""
-    return [measure(contest, rounds) for contest in nao_contests()]
+    from cga_runtime.experiments.cooperative_contests import cooperative_contests
+
+    return [measure(contest, rounds) for contest in (*nao_contests(), *cooperative_contests())]
 
 
 def write(rows: Sequence[dict[str, Any]], folder: Path) -> None:

@@ -2,6 +2,7 @@
 
 import cmath
 import json
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -19,6 +20,7 @@ from cga_codegen.robots.from_urdf import load_urdf
 from cga_codegen.robots.model import Frame, Inertia, Joint, Placement, RobotModel, as_rotation
 
 DATA = Path(__file__).parents[1] / "data"
+sys.path.insert(0, str(Path(__file__).parent / "oracles"))  # what the tests of paper A share
 TWIST_ROWS = "e23 e13 e12 e1i e2i e3i"
 """Rows of a Jacobian in the paper and in the oracle file: w1 -w2 w3 v1 v2 v3."""
 MOTOR_ROWS = "1 e23 e13 e12 e1i e2i e3i e123i"

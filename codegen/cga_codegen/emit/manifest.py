@@ -50,6 +50,7 @@ class KernelRecord:
             "multiplications": counts.multiplications,
             "additions": counts.additions,
             "divisions": counts.divisions,
+            "roots": counts.roots,
             "casadi_instructions": self.casadi_instructions,
         }
         if self.operations_by_differentiation is not None:

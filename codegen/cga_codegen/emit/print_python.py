@@ -5,6 +5,7 @@
         return (t0, ...)
 
 Inputs are indexed sequences of scalars (or of arrays: one array for each element makes a batch); the result is a flat tuple, row-major.
+Square roots are a function `root` of the module.
 """
 
 from __future__ import annotations
@@ -13,7 +14,17 @@ from collections.abc import Iterable
 
 from cga_codegen.emit.lower import LoweringError, Node, Program, Signed
 
-_PATTERNS = {"add": "{}+{}", "sub": "{}-{}", "mul": "{}*{}", "div": "{}/{}", "sqrt": "{}**0.5"}
+_PATTERNS = {"add": "{}+{}", "sub": "{}-{}", "mul": "{}*{}", "div": "{}/{}", "sqrt": "root({})"}
+
+_ROOT = """\
+import math
+
+
+def root(x):
+    return math.sqrt(x) if isinstance(x, float) else x**0.5  # arrays and symbols; a float's power may round another way than C's sqrt
+
+
+"""
 
 
 def print_function(program: Program, docstring: str) -> str:
@@ -36,7 +47,8 @@ def print_module(banner: str, functions: Iterable[str]) -> str:
     """A module of functions under a banner docstring. Raises LoweringError for a banner that would not stay inside it."""
     if '"' in banner or "\\" in banner:
         raise LoweringError(f"no docstring can hold {banner!r}")
-    return f'"""{banner}"""\n\n\n' + "\n\n".join(functions)
+    text = "\n\n".join(functions)
+    return f'"""{banner}"""\n\n{_ROOT if " = root(" in text else chr(10)}{text}'
 
 
 def _operand(program: Program, index: int) -> str:
