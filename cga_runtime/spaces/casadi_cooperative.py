@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from cga_runtime.elements.charts import SEAM
 from cga_runtime.errors import UnknownNameError
 from cga_runtime.smooth import casadi_field
-from cga_runtime.spaces.charts import SEAM
 from cga_runtime.spaces.cooperative_kernels import BY_POINTS, OF_POINTS, RATES, Source
 from cga_runtime.spaces.primitive_kinds import Primitive
 from cga_runtime.spaces.similarity_twists import (

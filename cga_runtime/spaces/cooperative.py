@@ -15,20 +15,23 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cga_runtime.coordinates import Array, one_batch, parts, read, stack
-from cga_runtime.elements import Circle, Line, Plane, Point, PointPair, Sphere
+from cga_runtime.elements import Element
+from cga_runtime.elements.charts import KEPT, RECOMMENDED, SEAM, read_chart
+from cga_runtime.elements.similarities import similarity_of
+from cga_runtime.elements.through_points import COINCIDENT, FLAT
 from cga_runtime.errors import DegenerateError, UnknownNameError, WrongSizeError
 from cga_runtime.robot import Chain
 from cga_runtime.smooth import NUMPY
 from cga_runtime.spaces.casadi_cooperative import function
-from cga_runtime.spaces.charts import HELD, POLE, SEAM, checked
 from cga_runtime.spaces.cooperative_kernels import Composed, Fused, Source
 from cga_runtime.spaces.jacobian_measures import manipulability, manipulability_gradient, nullspace
 from cga_runtime.spaces.joints import JointSpace
-from cga_runtime.spaces.primitive_kinds import COINCIDENT, FLAT, PRIMITIVES, Primitive
+from cga_runtime.spaces.primitive_kinds import PRIMITIVES, Primitive, Spanned
 from cga_runtime.spaces.similarity_twists import Parts, log_rate_of_body, log_rate_of_space, logarithm, relative, space_twist
 from cga_runtime.versors import Similarity
 
-Element = Point | PointPair | Line | Circle | Plane | Sphere
+POLE = -1.0 + 1e-15
+"""Cosine to the reference direction at which a chart that is asked for has no rotor."""
 
 
 class Cooperative:
@@ -109,10 +112,9 @@ class Cooperative:
         """Bivectors that move the primitive: the rows of `horizontal_jacobian` that are not zero (paper A, table 1)."""
         return self.about.controllable
 
-    def element(self, q: ArrayLike) -> Element:
+    def element(self, q: ArrayLike) -> Spanned:
         """The primitive as an element, with centre, direction and radius."""
-        element: Element = self.about.through(self.points(q))
-        return element
+        return self.about.through(self.points(q))
 
     def weight(self, q: ArrayLike) -> Array:
         """The signed size of X, (...): |x2 - x1|, twice the triangle's area, or the determinant of three edges; 1 of a point."""
@@ -132,14 +134,13 @@ class Cooperative:
     # ---- its similarity
 
     def chart(self, q: ArrayLike, previous: ArrayLike | None = None) -> Array:
-        """The chart to use at q, +1 or -1, (...): the one of the default, or with `previous` that one as long as the primitive's direction
-        stays 26 degrees away from where it fails."""
-        at = self.joints.check(q)
-        height = self._height(at)
+        """The recommended chart at q, +1 or -1, (...): +1 where a.n >= -0.5, n the primitive's direction and a its reference; with
+        `previous` that one, as long as n stays 26 degrees away from where it fails. See elements/charts.py."""
+        height = self._height(self.joints.check(q))
         if previous is None:
-            return np.where(height < SEAM, -1.0, 1.0)
-        before = checked(previous)
-        return np.where(before * height > -HELD, before, -before)
+            return np.where(height >= RECOMMENDED, 1.0, -1.0)
+        before = read_chart(previous).astype(np.float64)
+        return np.where(before * height > KEPT, before, -before)
 
     def similarity(self, q: ArrayLike, chart: ArrayLike | None = None) -> Array:
         """V with V X_u ~V = X over its weight, (..., 12): 1 e12 e13 e23 e0i e1i e2i e012i e3i e013i e023i e123i (paper A, eq. 28)."""
@@ -225,7 +226,7 @@ class Cooperative:
 
         chart None: the default one, chosen at each q. Raises UnknownNameError.
         """
-        return function(self.about, self._source, name, self.n, None if chart is None else float(checked(chart)))
+        return function(self.about, self._source, name, self.n, None if chart is None else float(read_chart(chart)))
 
     # ---- inside
 
@@ -237,14 +238,14 @@ class Cooperative:
         """q, parts of V_d, and the chart, with common leading dimensions where they have any."""
         at = self.joints.check(q)
         if isinstance(target, self.about.element):
-            sense = self.about.chart(target) if chart is None else checked(chart)
-            goal = self.about.similarity(target, sense)
+            sense = self.about.chart(target) if chart is None else read_chart(chart).astype(np.float64)
+            goal = similarity_of(target, sense)
+        elif isinstance(target, Element):
+            accepted = (self.about.element.__name__, "Similarity", "12 components of one")
+            raise UnknownNameError(f"target of a cooperative {self.kind}", type(target).__name__, accepted)
         else:
-            if isinstance(target, Point | PointPair | Line | Circle | Plane | Sphere):
-                accepted = (self.about.element.__name__, "Similarity", "12 components of one")
-                raise UnknownNameError(f"target of a cooperative {self.kind}", type(target).__name__, accepted)
+            sense = np.asarray(1.0) if chart is None else read_chart(chart).astype(np.float64)
             goal = target if isinstance(target, Similarity) else Similarity(np.asarray(target))
-            sense = np.asarray(1.0) if chart is None else checked(chart)
         one_batch("q and target", at.shape[:-1], goal.coefficients.shape[:-1])
         return at, (parts(goal.rotation().coefficients), parts(goal.translation()), goal.scale()), sense
 
@@ -252,7 +253,7 @@ class Cooperative:
         """Cosine between direction and reference direction, (...). Raises DegenerateError where the points are degenerate."""
         guard = self._source.value("guard", at)
         if not (guard[..., 0] > FLAT).all() or not (guard[..., 2:] > COINCIDENT**2).all():
-            self.about.refuse(self._source.value("points", at))
+            self.about.through(self._source.value("points", at))
         return guard[..., 1]
 
     def _charted(self, q: ArrayLike, chart: ArrayLike | None) -> tuple[Array, Array]:
@@ -261,7 +262,7 @@ class Cooperative:
         height = self._height(at)
         if chart is None:
             return at, np.where(height < SEAM, -1.0, 1.0)
-        sense = checked(chart)
+        sense = read_chart(chart).astype(np.float64)
         batch = one_batch("q and chart", at.shape[:-1], sense.shape)
         if not (sense * height > POLE).all():
             raise DegenerateError(f"{self.kind}: its direction is opposite to where chart {sense} begins; the other chart suits it")

@@ -7,97 +7,71 @@ from typing import Any
 
 import numpy as np
 
-from cga_runtime.coordinates import Array, norm, parts, stack
+from cga_runtime.coordinates import Array
 from cga_runtime.elements import Circle, Line, Plane, Point, PointPair, Sphere
-from cga_runtime.errors import DegenerateError
+from cga_runtime.elements.charts import REFERENCE, SEAM, direction_of
+from cga_runtime.elements.element import Element
+from cga_runtime.elements.joins import weight
+from cga_runtime.elements.similarities import CONTROLLABLE, UNIT
+from cga_runtime.elements.through_points import COINCIDENT as COINCIDENT
+from cga_runtime.elements.through_points import FLAT as FLAT
 from cga_runtime.exp_log import BIVECTORS
-from cga_runtime.spaces.charts import SEAM
-from cga_runtime.versors import Rotor, Similarity
 
-COINCIDENT, FLAT = 1e-9, 1e-9
+Spanned = Point | PointPair | Line | Circle | Plane | Sphere
+"""What points span."""
 
 
 @dataclass(frozen=True)
 class Primitive:
-    """A kind of primitive: its element, number of points, controllable bivectors, reference direction."""
+    """A kind of primitive: its element, and the number of points that span it."""
 
     name: str
     element: Any
     points: int
-    controllable: tuple[str, ...]
-    reference: Array | None
-    round: bool = False
+
+    @property
+    def controllable(self) -> tuple[str, ...]:
+        """Bivectors that move it."""
+        return CONTROLLABLE[self.name]
 
     @property
     def rows(self) -> list[int]:
         """Places of the controllable blades among e12 e13 e23 e0i e1i e2i e3i."""
         return [BIVECTORS["similarity"].index(name) for name in self.controllable]
 
-    def chart(self, element: Any) -> Array:
-        """The default chart of an element."""
-        if self.reference is None:
-            return np.ones(element.center.shape[:-1])
-        towards = element.normal if hasattr(element, "normal") else element.direction
-        return np.where(towards @ self.reference < SEAM, -1.0, 1.0)
+    @property
+    def round(self) -> bool:
+        """Whether it has a radius."""
+        return hasattr(UNIT[self.name], "radius")
 
-    def similarity(self, element: Any, chart: Array) -> Similarity:
-        """V with V X_u ~V = X, of an element, in a chart."""
-        if self.reference is None:
-            rotor = np.array([1.0, 0.0, 0.0, 0.0])
-        else:
-            n = element.normal if hasattr(element, "normal") else element.direction
-            middle = n + np.asarray(chart)[..., None] * self.reference
-            x, y, z = parts(middle / norm(middle)[..., None])
-            sense = np.asarray(chart)
-            arc = sense[..., None] * (stack(y, x, 0.0, -z) if self.reference[1] else stack(z, 0.0, x, y))
-            a, b, c, d = parts(arc)
-            rotor = np.where(sense[..., None] > 0, arc, stack(d, c, -b, -a))
-        size = element.radius if self.round else np.ones(element.center.shape[:-1])
-        return Similarity.from_parts(element.center, Rotor(np.broadcast_to(rotor, (*np.shape(size), 4))), size)
+    @property
+    def reference(self) -> Array | None:
+        """Direction of the unit primitive, if it has one."""
+        return np.array(REFERENCE[self.name]) if self.name in REFERENCE else None
 
-    def through(self, points: Array) -> Any:
-        """The element through points (..., k, 3)."""
+    def through(self, points: Array) -> Spanned:
+        """The element through points (..., k, 3). Raises DegenerateError."""
         x = [points[..., k, :] for k in range(self.points)]
-        return self.element(x[0]) if self.points == 1 else self.element.from_points(*x)
+        made: Spanned = self.element(x[0]) if self.points == 1 else self.element.from_points(*x)
+        return made
 
     def direction(self, points: Array) -> Array:
-        """Unit direction of the primitive through points (..., k, 3) that are not degenerate."""
-        edges = points[..., 1:, :] - points[..., :1, :]
-        normal = edges[..., 0, :] if self.points == 2 else np.cross(edges[..., 0, :], edges[..., 1, :])
-        return np.asarray(normal / norm(normal)[..., None])
+        """Unit direction (..., 3) of a kind that has one through points (..., k, 3) that are not degenerate."""
+        return direction_of(self.through(points))
 
     def weight(self, points: Array) -> Array:
-        """Signed weight of P1 ^ ... ^ Pk (similarity.md, section 2)."""
-        edges = points[..., 1:, :] - points[..., :1, :]
-        if self.points == 1:
-            return np.ones(points.shape[:-2])
-        if self.points == 2:
-            return norm(edges[..., 0, :])
-        normal = np.cross(edges[..., 0, :], edges[..., 1, :])
-        return norm(normal) if self.points == 3 else np.asarray((normal * edges[..., 2, :]).sum(axis=-1))
+        """Signed weight of P1 ^ ... ^ Pk, (...)."""
+        return weight(*(points[..., k, :] for k in range(self.points)))
 
-    def refuse(self, points: Array) -> None:
-        """DegenerateError where the points are degenerate."""
-        edges = points[..., 1:, :] - points[..., :1, :]
-        lengths = norm(edges)
-        if (lengths <= np.maximum(COINCIDENT, 1e-12 * norm(points[..., :1, :]))).any():
-            raise DegenerateError(f"{self.name}: two of its points coincide (within {COINCIDENT:.0e} m)")
-        if self.points > 2 and (np.abs(self.weight(points)) <= FLAT * lengths.prod(axis=-1)).any():
-            where = "on one line" if self.points == 3 else "in one plane"
-            raise DegenerateError(f"{self.name}: its points lie {where}")
+    def chart(self, element: Element) -> Array:
+        """The default chart of an element, (...)."""
+        if self.reference is None:
+            return np.ones(element.batch)
+        return np.where(direction_of(element) @ self.reference < SEAM, -1.0, 1.0)
 
 
-_MOVES = ("e1i", "e2i", "e3i")
-_E2, _E3 = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
 PRIMITIVES = {
-    primitive.name: primitive
-    for primitive in (
-        Primitive("point", Point, 1, _MOVES, None),
-        Primitive("point_pair", PointPair, 2, ("e12", "e23", "e0i", *_MOVES), _E2, True),
-        Primitive("line", Line, 2, ("e12", "e23", "e1i", "e3i"), _E2),
-        Primitive("circle", Circle, 3, ("e13", "e23", "e0i", *_MOVES), _E3, True),
-        Primitive("plane", Plane, 3, ("e13", "e23", "e3i"), _E3),
-        Primitive("sphere", Sphere, 4, ("e0i", *_MOVES), None, True),
-    )
+    kind: Primitive(kind, Element.kinds[kind], points)
+    for kind, points in (("point", 1), ("point_pair", 2), ("line", 2), ("circle", 3), ("plane", 3), ("sphere", 4))
 }
 """By name."""
