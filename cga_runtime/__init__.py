@@ -73,6 +73,8 @@ from cga_runtime.solve.reaching import Solution as Solution
 from cga_runtime.solve.reaching import reach as reach
 from cga_runtime.spaces.cooperative import Cooperative as Cooperative
 from cga_runtime.spaces.dual_task import DualTaskSpace as DualTaskSpace
+from cga_runtime.spaces.hypersphere import Hypersphere as Hypersphere
+from cga_runtime.spaces.hypersphere import HypersphereSpace as HypersphereSpace
 from cga_runtime.versors import Dilator as Dilator
 from cga_runtime.versors import Rotor as Rotor
 from cga_runtime.versors import Similarity as Similarity

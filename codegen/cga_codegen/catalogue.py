@@ -16,6 +16,7 @@ from cga_codegen.kernels import (
     differentiation,
     dynamics,
     dynamics_derivatives,
+    hypersphere,
     kinematics,
     primitives,
     screws,
@@ -149,6 +150,22 @@ COOPERATIVE_KERNELS = (
     Kernel("degeneracy_gradient", primitives.degeneracy_gradient, lambda z: (3 * z.points,)),
 )
 
+HYPERSPHERE_KERNELS = (
+    Kernel("primitive", hypersphere.primitive, lambda z: (z.blades,)),
+    Kernel("parts", hypersphere.parts, lambda z: (z.points,)),
+    Kernel("slice", hypersphere.slice, lambda z: (4,)),
+    Kernel("similarity", hypersphere.similarity, lambda z: (z.points + 1,)),
+    Kernel("geometric_jacobian", hypersphere.geometric_jacobian, lambda z: (z.points, 3 * z.points)),
+    Kernel("geometric_jacobian_by_lifts", hypersphere.geometric_jacobian_by_lifts, lambda z: (z.points, z.points * (z.points - 4))),
+    Kernel("degeneracy", hypersphere.degeneracy, lambda z: (1,)),
+    Kernel("degeneracy_gradient", hypersphere.degeneracy_gradient, lambda z: (3 * z.points,)),
+    Kernel("degeneracy_gradient_by_lifts", hypersphere.degeneracy_gradient_by_lifts, lambda z: (z.points * (z.points - 4),)),
+    Kernel("insphere", hypersphere.insphere, lambda z: (1,)),
+    Kernel("insphere_gradient", hypersphere.insphere_gradient, lambda z: (3 * z.points,)),
+    Kernel("dependency", hypersphere.dependency, lambda z: (z.points,)),
+    Kernel("dependency_jacobian", hypersphere.dependency_jacobian, lambda z: (z.points, 3 * z.points)),
+)
+
 TEAM_KERNELS = (
     Kernel("points", cooperative.points, lambda z: (z.points, 3)),
     Kernel("point_jacobian", cooperative.point_jacobian, lambda z: (3 * z.points, z.n), "points"),
@@ -176,4 +193,5 @@ INPUTS: dict[str, Shape] = {
     "screws": lambda z: (6, 6),
     **{name: lambda z: (z.points, 3) for name in ("points", "velocities")},
     "chart": lambda z: (1,),
+    "lifts": lambda z: (z.points * (z.points - 4),),
 }

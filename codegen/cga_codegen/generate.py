@@ -18,7 +18,7 @@ from cga_codegen.kernels.primitives import KINDS
 from cga_codegen.robots.bundled import bundled_robots
 from cga_codegen.robots.from_urdf import load_urdf
 from cga_codegen.robots.model import ModelError, RobotModel
-from cga_codegen.units import chain_unit, cooperative_unit, identifier, loop_unit, screws_unit, tree_unit
+from cga_codegen.units import chain_unit, cooperative_unit, hypersphere_unit, identifier, loop_unit, screws_unit, tree_unit
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def generate(robots: Sequence[tuple[RobotModel, Selection]], folder: Path, say: 
     """Writes a complete generated folder: the algebra, and the chosen kernels of the given robots."""
     files = dict(product_files())
     units, records = [], {}
-    for texts, record in (screws_unit(), *(cooperative_unit(kind) for kind in KINDS.values())):
+    for texts, record in (screws_unit(), *(cooperative_unit(kind) for kind in KINDS.values()), hypersphere_unit()):
         files.update(texts)
         units.append(record)
     for model, selection in robots:

@@ -17,6 +17,7 @@ import casadi
 from cga_codegen.catalogue import (
     CHAIN_KERNELS,
     COOPERATIVE_KERNELS,
+    HYPERSPHERE_KERNELS,
     INPUTS,
     LOOP_KERNELS,
     SCREW_KERNELS,
@@ -35,6 +36,7 @@ from cga_codegen.emit.print_c import print_file as print_c_file
 from cga_codegen.emit.print_python import print_function, print_module
 from cga_codegen.kernels.closed_chain import Loop
 from cga_codegen.kernels.cooperative import Team
+from cga_codegen.kernels.hypersphere import HYPERSPHERE
 from cga_codegen.kernels.primitives import Kind
 from cga_codegen.kernels.tree import Tree
 from cga_codegen.robots.model import Chain, Coordinates, ModelError, RobotModel
@@ -200,6 +202,11 @@ def cooperative_unit(kind: Kind) -> tuple[dict[str, str], UnitRecord]:
     """Similarity and Jacobians of a primitive from its points, for every robot."""
     title = f"The cooperative {kind.name.replace('_', ' ')} from its points"
     return unit(f"algebra/cooperative_{kind.name}", title, kind, COOPERATIVE_KERNELS)
+
+
+def hypersphere_unit() -> tuple[dict[str, str], UnitRecord]:
+    """Similarity and Jacobians of the hypersphere of five points, for every robot."""
+    return unit("algebra/cooperative_hypersphere", "The cooperative hypersphere from its points", HYPERSPHERE, HYPERSPHERE_KERNELS)
 
 
 def team_unit(team: Team) -> tuple[dict[str, str], UnitRecord]:

@@ -1,5 +1,11 @@
 """The cooperative circle from its points. Made by `cga generate`; do not edit: the loader checks digests, and the next run overwrites it."""
 
+import math
+
+
+def root(x):
+    return math.sqrt(x) if isinstance(x, float) else x**0.5  # arrays and symbols; a float's power may round another way than C's sqrt
+
 
 def primitive(points):
     """The primitive X = P1 ^ ... ^ Pk, of line and plane ^ ei, P = e0 + x + x^2/2 ei: its size is the weight (paper A, eq. 14). From cga_codegen.kernels.primitives.primitive.
@@ -356,14 +362,14 @@ def similarity(points, chart):
     t54 = t53/t39
     t55 = t54*t54
     t56 = t50+t55
-    t57 = t56**0.5
-    t58 = t57**0.5
+    t57 = root(t56)
+    t58 = root(t57)
     t59 = 1.0/t58
     t60 = t58+t59
     t61 = 0.5*t60
     t62 = 1.0+chart[0]
     t63 = 0.5*t62
-    t64 = t38**0.5
+    t64 = root(t38)
     t65 = t21/t64
     t66 = chart[0]-t65
     t67 = t33/t64
@@ -373,7 +379,7 @@ def similarity(points, chart):
     t71 = t68+t70
     t72 = t66*t66
     t73 = t71+t72
-    t74 = t73**0.5
+    t74 = root(t73)
     t75 = t66/t74
     t76 = chart[0]*t75
     t77 = t63*t76
@@ -457,7 +463,7 @@ def parts(points, chart):
     t19 = t14+t18
     t20 = t8*t8
     t21 = t19+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = chart[0]+t23
     t25 = t13/t22
@@ -467,7 +473,7 @@ def parts(points, chart):
     t29 = t26+t28
     t30 = t24*t24
     t31 = t29+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t24/t32
     t34 = chart[0]*t33
     t35 = t1*t34
@@ -524,7 +530,7 @@ def parts(points, chart):
     t86 = t84+t85
     t87 = t82*t82
     t88 = t86+t87
-    t89 = t88**0.5
+    t89 = root(t88)
     return (t41, -t44, -t45, t48, t70, t78, t83, t89,)
 
 
@@ -589,14 +595,14 @@ def analytic_jacobian(points, chart):
     t54 = t53/t39
     t55 = t54*t54
     t56 = t50+t55
-    t57 = t56**0.5
-    t58 = t57**0.5
+    t57 = root(t56)
+    t58 = root(t57)
     t59 = 1.0/t58
     t60 = t58+t59
     t61 = 0.5*t60
     t62 = 1.0+chart[0]
     t63 = 0.5*t62
-    t64 = t38**0.5
+    t64 = root(t38)
     t65 = t33/t64
     t66 = t65*t65
     t67 = t28/t64
@@ -606,7 +612,7 @@ def analytic_jacobian(points, chart):
     t71 = chart[0]-t70
     t72 = t71*t71
     t73 = t69+t72
-    t74 = t73**0.5
+    t74 = root(t73)
     t75 = t65/t74
     t76 = chart[0]*t75
     t77 = t63*t76
@@ -2084,7 +2090,7 @@ def geometric_jacobian(points, chart):
     t19 = t17-t18
     t20 = t19*t19
     t21 = t16+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = t23*t23
     t25 = t14/t22
@@ -2094,7 +2100,7 @@ def geometric_jacobian(points, chart):
     t29 = chart[0]+t28
     t30 = t29*t29
     t31 = t27+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t23/t32
     t34 = chart[0]*t33
     t35 = t1*t34
@@ -2169,7 +2175,7 @@ def geometric_jacobian(points, chart):
     t104 = t103/t89
     t105 = t104*t104
     t106 = t100+t105
-    t107 = t106**0.5
+    t107 = root(t106)
     t108 = t69/t107
     t109 = t35*t35
     t110 = t62+t109
@@ -2372,7 +2378,7 @@ def horizontal_jacobian(points, chart):
     t19 = t14+t18
     t20 = t8*t8
     t21 = t19+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = chart[0]+t23
     t25 = t13/t22
@@ -2382,7 +2388,7 @@ def horizontal_jacobian(points, chart):
     t29 = t26+t28
     t30 = t24*t24
     t31 = t29+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t24/t32
     t34 = chart[0]*t33
     t35 = t2*t34
@@ -2454,7 +2460,7 @@ def horizontal_jacobian(points, chart):
     t101 = t100/t86
     t102 = t101*t101
     t103 = t97+t102
-    t104 = t103**0.5
+    t104 = root(t103)
     t105 = t66/t104
     t106 = t49*t49
     t107 = t55+t106
@@ -2627,7 +2633,7 @@ def geometric_jacobian_derivative(points, chart, velocities):
     t19 = t14+t18
     t20 = t8*t8
     t21 = t19+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = chart[0]+t23
     t25 = t13/t22
@@ -2637,7 +2643,7 @@ def geometric_jacobian_derivative(points, chart, velocities):
     t29 = t26+t28
     t30 = t24*t24
     t31 = t29+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t24/t32
     t34 = chart[0]*t33
     t35 = t2*t34
@@ -2709,7 +2715,7 @@ def geometric_jacobian_derivative(points, chart, velocities):
     t101 = t100/t86
     t102 = t101*t101
     t103 = t97+t102
-    t104 = t103**0.5
+    t104 = root(t103)
     t105 = t66/t104
     t106 = t49*t49
     t107 = t55+t106
@@ -3500,7 +3506,7 @@ def horizontal_jacobian_derivative(points, chart, velocities):
     t19 = t17-t18
     t20 = t19*t19
     t21 = t16+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = t13/t22
     t25 = t24*t24
@@ -3510,7 +3516,7 @@ def horizontal_jacobian_derivative(points, chart, velocities):
     t29 = chart[0]+t28
     t30 = t29*t29
     t31 = t27+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t23/t32
     t34 = chart[0]*t33
     t35 = t1*t34
@@ -3696,7 +3702,7 @@ def horizontal_jacobian_derivative(points, chart, velocities):
     t215 = t214/t200
     t216 = t215*t215
     t217 = t211+t216
-    t218 = t217**0.5
+    t218 = root(t217)
     t219 = t180/t218
     t220 = t3*t147
     t221 = t11*t154
@@ -4273,7 +4279,7 @@ def degeneracy(points):
     t18 = t17*t17
     t19 = t14+t18
     t20 = t19+1e-300
-    t21 = t20**0.5
+    t21 = root(t20)
     t22 = t10*t10
     t23 = t0*t0
     t24 = t22+t23
@@ -4286,7 +4292,7 @@ def degeneracy(points):
     t31 = t29+t30
     t32 = t26*t31
     t33 = t32+1e-200
-    t34 = t33**0.5
+    t34 = root(t33)
     t35 = t21/t34
     return (t35,)
 
@@ -4316,7 +4322,7 @@ def guard(points):
     t18 = t17*t17
     t19 = t14+t18
     t20 = t19+1e-300
-    t21 = t20**0.5
+    t21 = root(t20)
     t22 = t10*t10
     t23 = t0*t0
     t24 = t22+t23
@@ -4329,7 +4335,7 @@ def guard(points):
     t31 = t29+t30
     t32 = t26*t31
     t33 = t32+1e-200
-    t34 = t33**0.5
+    t34 = root(t33)
     t35 = t21/t34
     t36 = t17/t21
     return (t35, t36, t26, t31,)
@@ -4361,7 +4367,7 @@ def degeneracy_gradient(points):
     t19 = t6*t6
     t20 = t18+t19
     t21 = t20+1e-300
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = 2.0*t22
     t24 = 1.0/t23
     t25 = t1*t1
@@ -4376,7 +4382,7 @@ def degeneracy_gradient(points):
     t34 = t32+t33
     t35 = t29*t34
     t36 = t35+1e-200
-    t37 = t36**0.5
+    t37 = root(t36)
     t38 = t24/t37
     t39 = t7*t38
     t40 = t0*t39

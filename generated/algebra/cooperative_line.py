@@ -1,5 +1,11 @@
 """The cooperative line from its points. Made by `cga generate`; do not edit: the loader checks digests, and the next run overwrites it."""
 
+import math
+
+
+def root(x):
+    return math.sqrt(x) if isinstance(x, float) else x**0.5  # arrays and symbols; a float's power may round another way than C's sqrt
+
 
 def primitive(points):
     """The primitive X = P1 ^ ... ^ Pk, of line and plane ^ ei, P = e0 + x + x^2/2 ei: its size is the weight (paper A, eq. 14). From cga_codegen.kernels.primitives.primitive.
@@ -41,7 +47,7 @@ def similarity(points, chart):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = chart[0]+t11
     t13 = t3/t10
@@ -51,7 +57,7 @@ def similarity(points, chart):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t12/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -120,7 +126,7 @@ def parts(points, chart):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = chart[0]+t11
     t13 = t3/t10
@@ -130,7 +136,7 @@ def parts(points, chart):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t12/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -175,7 +181,7 @@ def analytic_jacobian(points, chart):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = t11*t11
     t13 = t4/t10
@@ -185,7 +191,7 @@ def analytic_jacobian(points, chart):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t11/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -627,7 +633,7 @@ def geometric_jacobian(points, chart):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = t11*t11
     t13 = t4/t10
@@ -637,7 +643,7 @@ def geometric_jacobian(points, chart):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t11/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -775,7 +781,7 @@ def horizontal_jacobian(points, chart):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = t11*t11
     t13 = t4/t10
@@ -785,7 +791,7 @@ def horizontal_jacobian(points, chart):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t11/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -878,7 +884,7 @@ def geometric_jacobian_derivative(points, chart, velocities):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = t11*t11
     t13 = t4/t10
@@ -888,7 +894,7 @@ def geometric_jacobian_derivative(points, chart, velocities):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t11/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -1278,7 +1284,7 @@ def horizontal_jacobian_derivative(points, chart, velocities):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = t11*t11
     t13 = t4/t10
@@ -1288,7 +1294,7 @@ def horizontal_jacobian_derivative(points, chart, velocities):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t11/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -1551,7 +1557,7 @@ def degeneracy(points):
     t6 = t5*t5
     t7 = t4+t6
     t8 = t7+1e-300
-    t9 = t8**0.5
+    t9 = root(t8)
     return (t9,)
 
 
@@ -1568,7 +1574,7 @@ def guard(points):
     t6 = t5*t5
     t7 = t4+t6
     t8 = t7+1e-300
-    t9 = t8**0.5
+    t9 = root(t8)
     t10 = t2/t9
     return (t9, t10, t7,)
 
@@ -1586,7 +1592,7 @@ def degeneracy_gradient(points):
     t6 = t5*t5
     t7 = t4+t6
     t8 = t7+1e-300
-    t9 = t8**0.5
+    t9 = root(t8)
     t10 = t0/t9
     t11 = t2/t9
     t12 = t5/t9

@@ -1,5 +1,11 @@
 """The cooperative plane from its points. Made by `cga generate`; do not edit: the loader checks digests, and the next run overwrites it."""
 
+import math
+
+
+def root(x):
+    return math.sqrt(x) if isinstance(x, float) else x**0.5  # arrays and symbols; a float's power may round another way than C's sqrt
+
 
 def primitive(points):
     """The primitive X = P1 ^ ... ^ Pk, of line and plane ^ ei, P = e0 + x + x^2/2 ei: its size is the weight (paper A, eq. 14). From cga_codegen.kernels.primitives.primitive.
@@ -106,7 +112,7 @@ def similarity(points, chart):
     t19 = t14+t18
     t20 = t8*t8
     t21 = t19+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = chart[0]+t23
     t25 = t13/t22
@@ -116,7 +122,7 @@ def similarity(points, chart):
     t29 = t26+t28
     t30 = t24*t24
     t31 = t29+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t24/t32
     t34 = chart[0]*t33
     t35 = t1*t34
@@ -194,7 +200,7 @@ def parts(points, chart):
     t19 = t14+t18
     t20 = t8*t8
     t21 = t19+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = chart[0]+t23
     t25 = t13/t22
@@ -204,7 +210,7 @@ def parts(points, chart):
     t29 = t26+t28
     t30 = t24*t24
     t31 = t29+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t24/t32
     t34 = chart[0]*t33
     t35 = t1*t34
@@ -258,7 +264,7 @@ def analytic_jacobian(points, chart):
     t19 = t17-t18
     t20 = t19*t19
     t21 = t16+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = t23*t23
     t25 = t14/t22
@@ -268,7 +274,7 @@ def analytic_jacobian(points, chart):
     t29 = chart[0]+t28
     t30 = t29*t29
     t31 = t27+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t23/t32
     t34 = chart[0]*t33
     t35 = t1*t34
@@ -1088,7 +1094,7 @@ def geometric_jacobian(points, chart):
     t19 = t17-t18
     t20 = t19*t19
     t21 = t16+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = t23*t23
     t25 = t14/t22
@@ -1098,7 +1104,7 @@ def geometric_jacobian(points, chart):
     t29 = chart[0]+t28
     t30 = t29*t29
     t31 = t27+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t23/t32
     t34 = chart[0]*t33
     t35 = t1*t34
@@ -1314,7 +1320,7 @@ def horizontal_jacobian(points, chart):
     t19 = t14+t18
     t20 = t8*t8
     t21 = t19+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = chart[0]+t23
     t25 = t13/t22
@@ -1324,7 +1330,7 @@ def horizontal_jacobian(points, chart):
     t29 = t26+t28
     t30 = t24*t24
     t31 = t29+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t24/t32
     t34 = chart[0]*t33
     t35 = t2*t34
@@ -1476,7 +1482,7 @@ def geometric_jacobian_derivative(points, chart, velocities):
     t19 = t14+t18
     t20 = t8*t8
     t21 = t19+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = chart[0]+t23
     t25 = t13/t22
@@ -1486,7 +1492,7 @@ def geometric_jacobian_derivative(points, chart, velocities):
     t29 = t26+t28
     t30 = t24*t24
     t31 = t29+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t24/t32
     t34 = chart[0]*t33
     t35 = t2*t34
@@ -2125,7 +2131,7 @@ def horizontal_jacobian_derivative(points, chart, velocities):
     t19 = t17-t18
     t20 = t19*t19
     t21 = t16+t20
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = t8/t22
     t24 = t13/t22
     t25 = t24*t24
@@ -2135,7 +2141,7 @@ def horizontal_jacobian_derivative(points, chart, velocities):
     t29 = chart[0]+t28
     t30 = t29*t29
     t31 = t27+t30
-    t32 = t31**0.5
+    t32 = root(t31)
     t33 = t23/t32
     t34 = chart[0]*t33
     t35 = t1*t34
@@ -2576,7 +2582,7 @@ def degeneracy(points):
     t18 = t17*t17
     t19 = t14+t18
     t20 = t19+1e-300
-    t21 = t20**0.5
+    t21 = root(t20)
     t22 = t10*t10
     t23 = t0*t0
     t24 = t22+t23
@@ -2589,7 +2595,7 @@ def degeneracy(points):
     t31 = t29+t30
     t32 = t26*t31
     t33 = t32+1e-200
-    t34 = t33**0.5
+    t34 = root(t33)
     t35 = t21/t34
     return (t35,)
 
@@ -2619,7 +2625,7 @@ def guard(points):
     t18 = t17*t17
     t19 = t14+t18
     t20 = t19+1e-300
-    t21 = t20**0.5
+    t21 = root(t20)
     t22 = t10*t10
     t23 = t0*t0
     t24 = t22+t23
@@ -2632,7 +2638,7 @@ def guard(points):
     t31 = t29+t30
     t32 = t26*t31
     t33 = t32+1e-200
-    t34 = t33**0.5
+    t34 = root(t33)
     t35 = t21/t34
     t36 = t17/t21
     return (t35, t36, t26, t31,)
@@ -2664,7 +2670,7 @@ def degeneracy_gradient(points):
     t19 = t6*t6
     t20 = t18+t19
     t21 = t20+1e-300
-    t22 = t21**0.5
+    t22 = root(t21)
     t23 = 2.0*t22
     t24 = 1.0/t23
     t25 = t1*t1
@@ -2679,7 +2685,7 @@ def degeneracy_gradient(points):
     t34 = t32+t33
     t35 = t29*t34
     t36 = t35+1e-200
-    t37 = t36**0.5
+    t37 = root(t36)
     t38 = t24/t37
     t39 = t7*t38
     t40 = t0*t39

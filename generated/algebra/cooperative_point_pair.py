@@ -1,5 +1,11 @@
 """The cooperative point pair from its points. Made by `cga generate`; do not edit: the loader checks digests, and the next run overwrites it."""
 
+import math
+
+
+def root(x):
+    return math.sqrt(x) if isinstance(x, float) else x**0.5  # arrays and symbols; a float's power may round another way than C's sqrt
+
 
 def primitive(points):
     """The primitive X = P1 ^ ... ^ Pk, of line and plane ^ ei, P = e0 + x + x^2/2 ei: its size is the weight (paper A, eq. 14). From cga_codegen.kernels.primitives.primitive.
@@ -88,9 +94,9 @@ def similarity(points, chart):
     t5 = points[5]-points[2]
     t6 = t5*t5
     t7 = t4+t6
-    t8 = t7**0.5
+    t8 = root(t7)
     t9 = 0.5*t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = 1.0/t10
     t12 = t10+t11
     t13 = 0.5*t12
@@ -105,7 +111,7 @@ def similarity(points, chart):
     t22 = t5/t8
     t23 = t22*t22
     t24 = t21+t23
-    t25 = t24**0.5
+    t25 = root(t24)
     t26 = t17/t25
     t27 = chart[0]*t26
     t28 = t15*t27
@@ -180,7 +186,7 @@ def parts(points, chart):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = chart[0]+t11
     t13 = t3/t10
@@ -190,7 +196,7 @@ def parts(points, chart):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t12/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -229,9 +235,9 @@ def analytic_jacobian(points, chart):
     t5 = points[5]-points[2]
     t6 = t5*t5
     t7 = t4+t6
-    t8 = t7**0.5
+    t8 = root(t7)
     t9 = 0.5*t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = 1.0/t10
     t12 = t10+t11
     t13 = 0.5*t12
@@ -246,7 +252,7 @@ def analytic_jacobian(points, chart):
     t22 = t5/t8
     t23 = t22*t22
     t24 = t21+t23
-    t25 = t24**0.5
+    t25 = root(t24)
     t26 = t16/t25
     t27 = chart[0]*t26
     t28 = t15*t27
@@ -786,7 +792,7 @@ def geometric_jacobian(points, chart):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = t11*t11
     t13 = t4/t10
@@ -796,7 +802,7 @@ def geometric_jacobian(points, chart):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t11/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -884,7 +890,7 @@ def horizontal_jacobian(points, chart):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = t11*t11
     t13 = t4/t10
@@ -894,7 +900,7 @@ def horizontal_jacobian(points, chart):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t11/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -967,7 +973,7 @@ def geometric_jacobian_derivative(points, chart, velocities):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = t11*t11
     t13 = t4/t10
@@ -977,7 +983,7 @@ def geometric_jacobian_derivative(points, chart, velocities):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t11/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -1225,7 +1231,7 @@ def horizontal_jacobian_derivative(points, chart, velocities):
     t7 = points[5]-points[2]
     t8 = t7*t7
     t9 = t6+t8
-    t10 = t9**0.5
+    t10 = root(t9)
     t11 = t2/t10
     t12 = t11*t11
     t13 = t4/t10
@@ -1235,7 +1241,7 @@ def horizontal_jacobian_derivative(points, chart, velocities):
     t17 = t7/t10
     t18 = t17*t17
     t19 = t16+t18
-    t20 = t19**0.5
+    t20 = root(t19)
     t21 = t11/t20
     t22 = chart[0]*t21
     t23 = t1*t22
@@ -1443,7 +1449,7 @@ def degeneracy(points):
     t6 = t5*t5
     t7 = t4+t6
     t8 = t7+1e-300
-    t9 = t8**0.5
+    t9 = root(t8)
     return (t9,)
 
 
@@ -1460,7 +1466,7 @@ def guard(points):
     t6 = t5*t5
     t7 = t4+t6
     t8 = t7+1e-300
-    t9 = t8**0.5
+    t9 = root(t8)
     t10 = t2/t9
     return (t9, t10, t7,)
 
@@ -1478,7 +1484,7 @@ def degeneracy_gradient(points):
     t6 = t5*t5
     t7 = t4+t6
     t8 = t7+1e-300
-    t9 = t8**0.5
+    t9 = root(t8)
     t10 = t0/t9
     t11 = t2/t9
     t12 = t5/t9

@@ -1,5 +1,11 @@
 """The cooperative sphere from its points. Made by `cga generate`; do not edit: the loader checks digests, and the next run overwrites it."""
 
+import math
+
+
+def root(x):
+    return math.sqrt(x) if isinstance(x, float) else x**0.5  # arrays and symbols; a float's power may round another way than C's sqrt
+
 
 def primitive(points):
     """The primitive X = P1 ^ ... ^ Pk, of line and plane ^ ei, P = e0 + x + x^2/2 ei: its size is the weight (paper A, eq. 14). From cga_codegen.kernels.primitives.primitive.
@@ -714,8 +720,8 @@ def similarity(points, chart):
     t79 = t78/t51
     t80 = t79*t79
     t81 = t67+t80
-    t82 = t81**0.5
-    t83 = t82**0.5
+    t82 = root(t81)
+    t83 = root(t82)
     t84 = 1.0/t83
     t85 = t83+t84
     t86 = 0.5*t85
@@ -820,7 +826,7 @@ def parts(points, chart):
     t82 = t80+t81
     t83 = t78*t78
     t84 = t82+t83
-    t85 = t84**0.5
+    t85 = root(t84)
     return (1.0, 0.0, 0.0, 0.0, t53, t66, t79, t85,)
 
 
@@ -910,8 +916,8 @@ def analytic_jacobian(points, chart):
     t79 = t78/t51
     t80 = t79*t79
     t81 = t67+t80
-    t82 = t81**0.5
-    t83 = t82**0.5
+    t82 = root(t81)
+    t83 = root(t82)
     t84 = 1.0/t83
     t85 = t83-t84
     t86 = 0.25*t85
@@ -1382,7 +1388,7 @@ def geometric_jacobian(points, chart):
     t79 = t78/t51
     t80 = t79*t79
     t81 = t67+t80
-    t82 = t81**0.5
+    t82 = root(t81)
     t83 = t52/t82
     t84 = t0/t82
     t85 = t1/t82
@@ -1634,7 +1640,7 @@ def horizontal_jacobian(points, chart):
     t79 = t78/t51
     t80 = t79*t79
     t81 = t67+t80
-    t82 = t81**0.5
+    t82 = root(t81)
     t83 = t52/t82
     t84 = t0/t82
     t85 = t1/t82
@@ -1886,7 +1892,7 @@ def geometric_jacobian_derivative(points, chart, velocities):
     t79 = t78/t51
     t80 = t79*t79
     t81 = t67+t80
-    t82 = t81**0.5
+    t82 = root(t81)
     t83 = t0/t82
     t84 = t1/t82
     t85 = t83*t84
@@ -2716,7 +2722,7 @@ def horizontal_jacobian_derivative(points, chart, velocities):
     t79 = t78/t51
     t80 = t79*t79
     t81 = t67+t80
-    t82 = t81**0.5
+    t82 = root(t81)
     t83 = t0/t82
     t84 = t1/t82
     t85 = t83*t84
@@ -3489,7 +3495,7 @@ def degeneracy(points):
     t22 = t16-t21
     t23 = t22*t22
     t24 = t23+1e-300
-    t25 = t24**0.5
+    t25 = root(t24)
     t26 = t11*t11
     t27 = t0*t0
     t28 = t26+t27
@@ -3508,7 +3514,7 @@ def degeneracy(points):
     t41 = t39+t40
     t42 = t36*t41
     t43 = t42+1e-200
-    t44 = t43**0.5
+    t44 = root(t43)
     t45 = t25/t44
     return (t45,)
 
@@ -3542,7 +3548,7 @@ def guard(points):
     t22 = t16-t21
     t23 = t22*t22
     t24 = t23+1e-300
-    t25 = t24**0.5
+    t25 = root(t24)
     t26 = t11*t11
     t27 = t0*t0
     t28 = t26+t27
@@ -3561,7 +3567,7 @@ def guard(points):
     t41 = t39+t40
     t42 = t36*t41
     t43 = t42+1e-200
-    t44 = t43**0.5
+    t44 = root(t43)
     t45 = t25/t44
     return (t45, 0.0, t30, t35, t41,)
 
@@ -3596,7 +3602,7 @@ def degeneracy_gradient(points):
     t23 = t22*2.0
     t24 = t22*t22
     t25 = t24+1e-300
-    t26 = t25**0.5
+    t26 = root(t25)
     t27 = 2.0*t26
     t28 = 1.0/t27
     t29 = t12*t12
@@ -3617,7 +3623,7 @@ def degeneracy_gradient(points):
     t44 = t42+t43
     t45 = t39*t44
     t46 = t45+1e-200
-    t47 = t46**0.5
+    t47 = root(t46)
     t48 = t28/t47
     t49 = t23*t48
     t50 = t1*t49

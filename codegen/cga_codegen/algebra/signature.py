@@ -120,17 +120,21 @@ def grade_sign(g: int) -> int:
     return -1 if g & 2 else 1
 
 
-def _null_basis(name: str, euclidean: int) -> Signature:
-    """G(euclidean + 1, 1) with e0^2 = ei^2 = 0 and e0.ei = -1 around `euclidean` orthonormal vectors."""
-    n = euclidean + 2
-    gram = [[int(i == j and 0 < i < n - 1) for j in range(n)] for i in range(n)]
-    gram[0][n - 1] = gram[n - 1][0] = -1
-    return Signature(name, tuple("e" + c for c in "0" + SUFFIXES[:euclidean] + "i"), tuple(map(tuple, gram)))
+def conformal(n: int) -> Signature:
+    """G(n + 1, 1) of R^n in the null basis e0 e1 ... en ei: e0^2 = ei^2 = 0 and e0.ei = -1 around n orthonormal vectors.
+
+    Raises AlgebraError for an n without names for its vectors.
+    """
+    if not 1 <= n <= len(SUFFIXES):
+        raise AlgebraError(f"conformal algebra of R^{n}: 1 to {len(SUFFIXES)} dimensions have names")
+    gram = [[int(i == j and 0 < i <= n) for j in range(n + 2)] for i in range(n + 2)]
+    gram[0][n + 1] = gram[n + 1][0] = -1
+    return Signature("CGA" if n == 3 else f"G{n + 1}1", tuple("e" + c for c in "0" + SUFFIXES[:n] + "i"), tuple(map(tuple, gram)))
 
 
-CGA = _null_basis("CGA", 3)
+CGA = conformal(3)
 """G(4,1), e0 = (e5 - e4)/2, ei = e4 + e5; masks e0=1, e1=2, e2=4, e3=8, ei=16; I = e0123i, I^2 = -1."""
-G51 = _null_basis("G51", 4)
+G51 = conformal(4)
 """G(5,1) in the null basis e0 e1 e2 e3 e4 ei."""
 G3 = Signature.orthogonal(3)
 """G(3,0): e1, e2, e3."""
