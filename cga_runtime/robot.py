@@ -103,10 +103,10 @@ class Robot(WholeBody):
     ) -> Chain:
         """The chain from the base (or the frame `root`) to `frame`.
 
-        placement: pose of the robot's base (with `root`: of the root frame) in the world, a 4x4 matrix or a Motor; chains with another placement belong to
-        another robot of the same kind. tool: pose of the end frame in `frame`, likewise. offset: a point fixed in the end frame (m), which
-        becomes its origin. Kernels of chains that are not checked in are generated at first use and kept in the cache. Raises
-        UnknownNameError, WrongSizeError, ChainError, DegenerateError (a placement or tool that is no rigid motion).
+        placement: pose of the robot's base (with `root`: of the root frame) in the world, a 4x4 matrix or a Motor; chains with another
+        placement belong to another robot of the same kind. tool: pose of the end frame in `frame`, likewise. offset: a point fixed in the
+        end frame (m), which becomes its origin. Kernels of chains that are not checked in are generated at first use and kept in the cache.
+        Raises UnknownNameError, WrongSizeError, ChainError, DegenerateError (a placement or tool that is no rigid motion).
         """
         for name in (frame, root):
             if name is not None and name not in self.frame_names:

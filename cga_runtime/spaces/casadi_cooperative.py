@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from cga_runtime.elements.charts import SEAM
-from cga_runtime.errors import UnknownNameError
+from cga_runtime.errors import UnknownNameError, WrongSizeError
 from cga_runtime.smooth import casadi_field
 from cga_runtime.spaces.cooperative_kernels import BY_POINTS, OF_POINTS, RATES, Source
 from cga_runtime.spaces.primitive_kinds import Primitive
@@ -19,6 +19,7 @@ from cga_runtime.spaces.similarity_twists import (
     parts_of,
     relative,
     space_twist,
+    turned,
 )
 
 Expression = Any
@@ -27,16 +28,22 @@ Expression = Any
 class _System:
     """Expressions of one system over symbols q, v, V_d in one chart."""
 
-    def __init__(self, about: Primitive, source: Source, n: int, chart: float | None) -> None:
+    def __init__(self, about: Primitive, source: Source, n: int, chart: float | None, towards_target: bool) -> None:
         import casadi
 
         self.about, self.source = about, source
         self.field = replace(casadi_field(), pairs=False)
         self.q, self.v, self.target = casadi.SX.sym("q", n), casadi.SX.sym("v", n), casadi.SX.sym("target", 12)
-        self.chart: Any = chart
-        if chart is None:
-            height = source.symbolic("guard", self.q)[1]
-            self.chart = casadi.if_else(height < SEAM, -1.0, 1.0) if about.reference is not None else 1.0
+        self.chart: Any = 1.0 if about.reference is None else chart
+        if self.chart is None:
+            height = self._target_height() if towards_target else source.symbolic("guard", self.q)[1]
+            self.chart = casadi.if_else(height < SEAM, -1.0, 1.0)
+
+    def _target_height(self) -> Expression:
+        """Cosine between the direction of the target and the reference direction."""
+        rotor, _, _ = parts_of(self.field, self.target.elements())
+        reference = [float(x) for x in self.about.reference]  # type: ignore[union-attr]  # only asked of those that have one
+        return sum(x * y for x, y in zip(reference, turned(rotor, reference), strict=True))
 
     def kernel(self, name: str) -> Expression:
         return self.source.symbolic(name, self.q, self.chart, self.v)
@@ -70,17 +77,22 @@ class _System:
         import casadi
 
         rows = self._moving()
-        return casadi.SX.eye(rows.shape[1]) - rows.T @ casadi.solve(rows @ rows.T, rows)
+        if rows.shape[1] < rows.shape[0]:
+            raise WrongSizeError(f"nullspace: {rows.shape[1]} joints move a primitive of dimension {rows.shape[0]}; numpy's serves there")
+        across, _ = casadi.qr(rows.T)  # J J^T would lose digits twice
+        return casadi.SX.eye(across.shape[0]) - across @ across.T
 
     def manipulability(self) -> Expression:
         import casadi
 
         rows = self._moving()
-        pivots = casadi.ldl(rows @ rows.T)[0]
+        if rows.shape[1] < rows.shape[0]:
+            return casadi.SX.zeros(1)
+        _, triangle = casadi.qr(rows.T)
         whole: Expression = 1
-        for pivot in casadi.SX(pivots).nz[:].elements():
-            whole = whole * pivot
-        return casadi.sqrt(whole)
+        for k in range(triangle.shape[0]):
+            whole = whole * triangle[k, k]
+        return whole
 
     def manipulability_gradient(self) -> Expression:
         import casadi
@@ -120,12 +132,12 @@ NAMES = ("points", "point_jacobian", *(name for name in OF_POINTS if name != "gu
 
 
 def function(about: Primitive, source: Source, name: str, n: int, chart: float | None) -> Any:
-    """The method `name` as a casadi.Function of q, and v or target where it needs them. Raises UnknownNameError."""
+    """The method `name` as a casadi.Function of q, and v or target where it needs them. Raises UnknownNameError, WrongSizeError."""
     import casadi
 
     if name not in NAMES:
         raise UnknownNameError("function of a cooperative system", name, NAMES)
-    system = _System(about, source, n, chart)
+    system = _System(about, source, n, chart, name.startswith("error"))
     expression = PUT_TOGETHER[name](system) if name in PUT_TOGETHER else system.kernel(name)
     inputs = [("q", system.q)]
     if name in RATES:

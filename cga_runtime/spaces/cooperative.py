@@ -8,7 +8,7 @@ of its radius (of flat primitives: m), with e0i = -d log r.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,11 +18,11 @@ from cga_runtime.coordinates import Array, one_batch, parts, read, stack
 from cga_runtime.elements import Element
 from cga_runtime.elements.charts import KEPT, RECOMMENDED, SEAM, read_chart
 from cga_runtime.elements.similarities import similarity_of
-from cga_runtime.elements.through_points import COINCIDENT, FLAT
-from cga_runtime.errors import DegenerateError, UnknownNameError, WrongSizeError
+from cga_runtime.errors import UnknownNameError, WrongSizeError
 from cga_runtime.robot import Chain
 from cga_runtime.smooth import NUMPY
 from cga_runtime.spaces.casadi_cooperative import function
+from cga_runtime.spaces.cooperative_guard import evaluate, look, refuse_pole
 from cga_runtime.spaces.cooperative_kernels import Composed, Fused, Source
 from cga_runtime.spaces.jacobian_measures import manipulability, manipulability_gradient, nullspace
 from cga_runtime.spaces.joints import JointSpace
@@ -51,8 +51,10 @@ class Cooperative:
     """
 
     def __init__(self, chains: Sequence[Chain], primitive: str) -> None:
-        if primitive not in PRIMITIVES:
+        if not isinstance(primitive, str) or primitive not in PRIMITIVES:
             raise UnknownNameError("primitive", primitive, PRIMITIVES)
+        if not isinstance(chains, Chain | Iterable):
+            raise UnknownNameError("chain", type(chains).__name__, ("a Chain, from Robot.chain",))
         given = [chains] if isinstance(chains, Chain) else list(chains)
         self.about: Primitive = PRIMITIVES[primitive]
         if len(given) != self.about.points:
@@ -65,7 +67,7 @@ class Cooperative:
 
     def __repr__(self) -> str:
         names = " + ".join(f"{chain.robot.name}/{chain.frame}" for chain in self.chains)
-        return f"<{'Fused' if self.fused else ''}Cooperative {self.kind} of {names}: {self.n} joints>"
+        return f"<Cooperative {self.kind} of {names}: {self.n} joints{', fused' if self.fused else ''}>"
 
     @property
     def fused(self) -> bool:
@@ -86,20 +88,20 @@ class Cooperative:
 
     def points(self, q: ArrayLike) -> Array:
         """End points of the chains (m), (..., k, 3)."""
-        return self._source.value("points", self.joints.check(q))
+        return self._plain("points", q)
 
     def point_jacobian(self, q: ArrayLike) -> Array:
         """Derivative of the points, x y z of the first chain first, (..., 3 k, n)."""
-        return self._source.value("point_jacobian", self.joints.check(q))
+        return self._plain("point_jacobian", q)
 
     def primitive(self, q: ArrayLike) -> Array:
         """X = P1 ^ ... ^ Pk, of line and plane ^ ei, coefficients of `blades`; not normalised (paper A, eq. 14). Total: zero or flat where
         the points are degenerate."""
-        return self._source.value("primitive", self.joints.check(q))
+        return self._plain("primitive", q)
 
     def primitive_jacobian(self, q: ArrayLike) -> Array:
         """dX/dq, (..., blades, n) (paper A, eqs. 15-17)."""
-        return self._source.value("primitive_jacobian", self.joints.check(q))
+        return self._plain("primitive_jacobian", q)
 
     @property
     def blades(self) -> tuple[str, ...]:
@@ -123,24 +125,25 @@ class Cooperative:
     def degeneracy(self, q: ArrayLike) -> Array:
         """How far from degenerate, (...): |x2 - x1| (m), the sine between two edges, |det| of three over their lengths; 1 of a point.
 
-        Zero exactly where the points coincide, are collinear or coplanar. Never raises for finite q.
+        Zero where the points coincide, are collinear or coplanar, but for rounding; these do not raise.
         """
-        return np.asarray(self._source.value("degeneracy", self.joints.check(q))[..., 0])
+        return np.asarray(self._plain("degeneracy", q)[..., 0])
 
     def degeneracy_gradient(self, q: ArrayLike) -> Array:
         """Gradient of `degeneracy`, (..., n)."""
-        return self._source.value("degeneracy_gradient", self.joints.check(q))
+        return self._plain("degeneracy_gradient", q)
 
     # ---- its similarity
 
     def chart(self, q: ArrayLike, previous: ArrayLike | None = None) -> Array:
         """The recommended chart at q, +1 or -1, (...): +1 where a.n >= -0.5, n the primitive's direction and a its reference; with
         `previous` that one, as long as n stays 26 degrees away from where it fails. See elements/charts.py."""
-        height = self._height(self.joints.check(q))
+        cosine, _ = look(self.about, self._source, self.joints.check(q))
         if previous is None:
-            return np.where(height >= RECOMMENDED, 1.0, -1.0)
+            return np.where(cosine >= RECOMMENDED, 1.0, -1.0)
         before = read_chart(previous).astype(np.float64)
-        return np.where(before * height > KEPT, before, -before)
+        one_batch("q and chart", cosine.shape, before.shape)
+        return np.where(before * cosine > KEPT, before, -before)
 
     def similarity(self, q: ArrayLike, chart: ArrayLike | None = None) -> Array:
         """V with V X_u ~V = X over its weight, (..., 12): 1 e12 e13 e23 e0i e1i e2i e012i e3i e013i e023i e123i (paper A, eq. 28)."""
@@ -224,11 +227,18 @@ class Cooperative:
     def casadi(self, name: str, chart: int | None = None) -> Any:
         """A method as a casadi.Function with exact derivatives: of q; *_derivative of q and v; error and error_jacobian of q and V_d (12).
 
-        chart None: the default one, chosen at each q. Raises UnknownNameError.
+        chart None: the default one, chosen at each q, of errors by the target. Raises UnknownNameError, WrongSizeError.
         """
-        return function(self.about, self._source, name, self.n, None if chart is None else float(read_chart(chart)))
+        sense = None if chart is None else read_chart(chart)
+        if sense is not None and sense.ndim:
+            raise WrongSizeError(f"chart: shape {sense.shape} given, one number needed")
+        return function(self.about, self._source, name, self.n, None if sense is None else float(sense))
 
     # ---- inside
+
+    def _plain(self, name: str, q: ArrayLike) -> Array:
+        """What does not depend on a chart, and has a value for degenerate points, too."""
+        return evaluate(self.about, self._source, name, self.joints.check(q))
 
     def _moving(self, q: ArrayLike) -> Array:
         """Controllable rows of the horizontal Jacobian."""
@@ -244,38 +254,30 @@ class Cooperative:
             accepted = (self.about.element.__name__, "Similarity", "12 components of one")
             raise UnknownNameError(f"target of a cooperative {self.kind}", type(target).__name__, accepted)
         else:
-            sense = np.asarray(1.0) if chart is None else read_chart(chart).astype(np.float64)
             goal = target if isinstance(target, Similarity) else Similarity(np.asarray(target))
+            sense = self.about.chart_of_similarity(goal) if chart is None else read_chart(chart).astype(np.float64)
         one_batch("q and target", at.shape[:-1], goal.coefficients.shape[:-1])
         return at, (parts(goal.rotation().coefficients), parts(goal.translation()), goal.scale()), sense
-
-    def _height(self, at: Array) -> Array:
-        """Cosine between direction and reference direction, (...). Raises DegenerateError where the points are degenerate."""
-        guard = self._source.value("guard", at)
-        if not (guard[..., 0] > FLAT).all() or not (guard[..., 2:] > COINCIDENT**2).all():
-            self.about.through(self._source.value("points", at))
-        return guard[..., 1]
 
     def _charted(self, q: ArrayLike, chart: ArrayLike | None) -> tuple[Array, Array]:
         """q and the chart at q, with the same leading dimensions."""
         at = self.joints.check(q)
-        height = self._height(at)
+        cosine, sine = look(self.about, self._source, at)
         if chart is None:
-            return at, np.where(height < SEAM, -1.0, 1.0)
+            return at, np.where(cosine < SEAM, -1.0, 1.0)
         sense = read_chart(chart).astype(np.float64)
         batch = one_batch("q and chart", at.shape[:-1], sense.shape)
-        if not (sense * height > POLE).all():
-            raise DegenerateError(f"{self.kind}: its direction is opposite to where chart {sense} begins; the other chart suits it")
+        refuse_pole(self.about, cosine, sine, sense)
         return np.broadcast_to(at, (*batch, self.n)), np.broadcast_to(sense, batch)
 
     def _value(self, name: str, q: ArrayLike, chart: ArrayLike | None, v: ArrayLike | None = None) -> Array:
         at, sense = self._charted(q, chart)
         if v is None:
-            return self._source.value(name, at, sense)
+            return evaluate(self.about, self._source, name, at, sense)
         rate = read(v, "v", self.n)
         batch = one_batch("q and v", at.shape[:-1], rate.shape[:-1])
         at, rate = np.broadcast_to(at, (*batch, self.n)), np.broadcast_to(rate, (*batch, self.n))
-        return self._source.value(name, at, np.broadcast_to(sense, batch), rate)
+        return evaluate(self.about, self._source, name, at, np.broadcast_to(sense, batch), rate)
 
     def _parts(self, q: ArrayLike, chart: ArrayLike | None) -> Parts:
         rotor_centre_size = parts(self._value("parts", q, chart))

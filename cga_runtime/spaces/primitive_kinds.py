@@ -16,6 +16,7 @@ from cga_runtime.elements.similarities import CONTROLLABLE, UNIT
 from cga_runtime.elements.through_points import COINCIDENT as COINCIDENT
 from cga_runtime.elements.through_points import FLAT as FLAT
 from cga_runtime.exp_log import BIVECTORS
+from cga_runtime.versors import Similarity
 
 Spanned = Point | PointPair | Line | Circle | Plane | Sphere
 """What points span."""
@@ -54,6 +55,13 @@ class Primitive:
         x = [points[..., k, :] for k in range(self.points)]
         made: Spanned = self.element(x[0]) if self.points == 1 else self.element.from_points(*x)
         return made
+
+    def chart_of_similarity(self, versor: Similarity) -> Array:
+        """The default chart of the primitive V X_u ~V, (...)."""
+        if self.reference is None:
+            return np.ones(versor.coefficients.shape[:-1])
+        ahead = np.einsum("i,...ij,j->...", self.reference, versor.rotation().matrix(), self.reference)
+        return np.where(ahead < SEAM, -1.0, 1.0)
 
     def direction(self, points: Array) -> Array:
         """Unit direction (..., 3) of a kind that has one through points (..., k, 3) that are not degenerate."""

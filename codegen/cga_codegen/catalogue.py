@@ -146,7 +146,7 @@ COOPERATIVE_KERNELS = (
     Kernel("geometric_jacobian_derivative", similarity.geometric_jacobian_derivative, lambda z: (7, 3 * z.points)),
     Kernel("horizontal_jacobian_derivative", similarity.horizontal_jacobian_derivative, lambda z: (7, 3 * z.points)),
     Kernel("degeneracy", primitives.degeneracy, lambda z: (1,)),
-    Kernel("guard", primitives.guard, lambda z: (z.points + 1,)),
+    Kernel("guard", primitives.guard, lambda z: (4 + z.points * (z.points - 1) // 2,)),
     Kernel("degeneracy_gradient", primitives.degeneracy_gradient, lambda z: (3 * z.points,)),
 )
 
@@ -179,7 +179,7 @@ TEAM_KERNELS = (
     Kernel("geometric_jacobian_derivative", cooperative.geometric_jacobian_derivative, lambda z: (7, z.n)),
     Kernel("horizontal_jacobian_derivative", cooperative.horizontal_jacobian_derivative, lambda z: (7, z.n)),
     Kernel("degeneracy", cooperative.degeneracy, lambda z: (1,)),
-    Kernel("guard", cooperative.guard, lambda z: (z.points + 1,)),
+    Kernel("guard", cooperative.guard, lambda z: (4 + z.points * (z.points - 1) // 2,)),
     Kernel("degeneracy_gradient", cooperative.degeneracy_gradient, lambda z: (z.n,), "degeneracy"),
 )
 

@@ -416,16 +416,22 @@ CGA_EXPORT int cga_cooperative_point_degeneracy_batch(int64_t n, const double *r
     return bad;
 }
 
-/* What is looked at before the rest is trusted: `degeneracy`, the cosine between direction and reference direction (0 without one), and From cga_codegen.kernels.primitives.guard.
-   0 mul, 0 add, 0 div, 0 sqrt. */
+/* What is looked at before the rest is trusted. Total. From cga_codegen.kernels.primitives.guard.
+   3 mul, 2 add, 0 div, 0 sqrt. */
 static inline void cga_cooperative_point_guard_body(const T *restrict points, T *restrict out)
 {
+    const T t0 = points[0] * points[0];
+    const T t1 = points[1] * points[1];
+    const T t2 = t0 + t1;
+    const T t3 = points[2] * points[2];
+    const T t4 = t2 + t3;
     out[0] = K(1.0);
     out[1] = K(0.0);
-    (void)points;
+    out[2] = K(1.0);
+    out[3] = t4;
 }
 
-CGA_EXPORT int cga_cooperative_point_guard(const double *restrict points /* 3 */, double *restrict out /* 2 */)
+CGA_EXPORT int cga_cooperative_point_guard(const double *restrict points /* 3 */, double *restrict out /* 4 */)
 {
     cga_cooperative_point_guard_body(points, out);
     return cga_not_finite(points, 3);
@@ -435,7 +441,7 @@ CGA_EXPORT int cga_cooperative_point_guard_batch(int64_t n, const double *restri
 {
     int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        bad |= cga_cooperative_point_guard(points + k * 3, out + k * 2);
+        bad |= cga_cooperative_point_guard(points + k * 3, out + k * 4);
     return bad;
 }
 

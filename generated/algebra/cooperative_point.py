@@ -81,10 +81,15 @@ def degeneracy(points):
 
 
 def guard(points):
-    """What is looked at before the rest is trusted: `degeneracy`, the cosine between direction and reference direction (0 without one), and From cga_codegen.kernels.primitives.guard.
+    """What is looked at before the rest is trusted. Total. From cga_codegen.kernels.primitives.guard.
 
-    Result: shape (2,). 0 mul, 0 add, 0 div, 0 sqrt."""
-    return (1.0, 0.0,)
+    Result: shape (4,). 3 mul, 2 add, 0 div, 0 sqrt."""
+    t0 = points[0]*points[0]
+    t1 = points[1]*points[1]
+    t2 = t0+t1
+    t3 = points[2]*points[2]
+    t4 = t2+t3
+    return (1.0, 0.0, 1.0, t4,)
 
 
 def degeneracy_gradient(points):

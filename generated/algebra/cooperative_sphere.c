@@ -4246,8 +4246,8 @@ CGA_EXPORT int cga_cooperative_sphere_degeneracy_batch(int64_t n, const double *
     return bad;
 }
 
-/* What is looked at before the rest is trusted: `degeneracy`, the cosine between direction and reference direction (0 without one), and From cga_codegen.kernels.primitives.guard.
-   21 mul, 22 add, 1 div, 2 sqrt. */
+/* What is looked at before the rest is trusted. Total. From cga_codegen.kernels.primitives.guard.
+   42 mul, 48 add, 1 div, 2 sqrt. */
 static inline void cga_cooperative_sphere_guard_body(const T *restrict points, T *restrict out)
 {
     const T t0 = points[4] - points[1];
@@ -4296,14 +4296,66 @@ static inline void cga_cooperative_sphere_guard_body(const T *restrict points, T
     const T t43 = t42 + K(1e-200);
     const T t44 = ROOT(t43);
     const T t45 = t25 / t44;
+    const T t46 = points[0] * points[0];
+    const T t47 = points[1] * points[1];
+    const T t48 = t46 + t47;
+    const T t49 = points[2] * points[2];
+    const T t50 = t48 + t49;
+    const T t51 = points[3] * points[3];
+    const T t52 = points[4] * points[4];
+    const T t53 = t51 + t52;
+    const T t54 = points[5] * points[5];
+    const T t55 = t53 + t54;
+    const T t56 = t50 + t55;
+    const T t57 = points[6] * points[6];
+    const T t58 = points[7] * points[7];
+    const T t59 = t57 + t58;
+    const T t60 = points[8] * points[8];
+    const T t61 = t59 + t60;
+    const T t62 = t56 + t61;
+    const T t63 = points[9] * points[9];
+    const T t64 = points[10] * points[10];
+    const T t65 = t63 + t64;
+    const T t66 = points[11] * points[11];
+    const T t67 = t65 + t66;
+    const T t68 = t62 + t67;
+    const T t69 = points[6] - points[3];
+    const T t70 = t69 * t69;
+    const T t71 = points[4] - points[7];
+    const T t72 = t71 * t71;
+    const T t73 = t70 + t72;
+    const T t74 = points[8] - points[5];
+    const T t75 = t74 * t74;
+    const T t76 = t73 + t75;
+    const T t77 = points[9] - points[3];
+    const T t78 = t77 * t77;
+    const T t79 = points[4] - points[10];
+    const T t80 = t79 * t79;
+    const T t81 = t78 + t80;
+    const T t82 = points[5] - points[11];
+    const T t83 = t82 * t82;
+    const T t84 = t81 + t83;
+    const T t85 = points[9] - points[6];
+    const T t86 = t85 * t85;
+    const T t87 = points[7] - points[10];
+    const T t88 = t87 * t87;
+    const T t89 = t86 + t88;
+    const T t90 = points[8] - points[11];
+    const T t91 = t90 * t90;
+    const T t92 = t89 + t91;
     out[0] = t45;
     out[1] = K(0.0);
-    out[2] = t30;
-    out[3] = t35;
-    out[4] = t41;
+    out[2] = K(1.0);
+    out[3] = t68;
+    out[4] = t30;
+    out[5] = t35;
+    out[6] = t76;
+    out[7] = t41;
+    out[8] = t84;
+    out[9] = t92;
 }
 
-CGA_EXPORT int cga_cooperative_sphere_guard(const double *restrict points /* 12 */, double *restrict out /* 5 */)
+CGA_EXPORT int cga_cooperative_sphere_guard(const double *restrict points /* 12 */, double *restrict out /* 10 */)
 {
     cga_cooperative_sphere_guard_body(points, out);
     return cga_not_finite(points, 12);
@@ -4313,7 +4365,7 @@ CGA_EXPORT int cga_cooperative_sphere_guard_batch(int64_t n, const double *restr
 {
     int bad = 0;
     for (int64_t k = 0; k < n; ++k)
-        bad |= cga_cooperative_sphere_guard(points + k * 12, out + k * 5);
+        bad |= cga_cooperative_sphere_guard(points + k * 12, out + k * 10);
     return bad;
 }
 

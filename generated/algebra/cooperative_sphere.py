@@ -3520,9 +3520,9 @@ def degeneracy(points):
 
 
 def guard(points):
-    """What is looked at before the rest is trusted: `degeneracy`, the cosine between direction and reference direction (0 without one), and From cga_codegen.kernels.primitives.guard.
+    """What is looked at before the rest is trusted. Total. From cga_codegen.kernels.primitives.guard.
 
-    Result: shape (5,). 21 mul, 22 add, 1 div, 2 sqrt."""
+    Result: shape (10,). 42 mul, 48 add, 1 div, 2 sqrt."""
     t0 = points[4]-points[1]
     t1 = points[8]-points[2]
     t2 = t0*t1
@@ -3569,7 +3569,54 @@ def guard(points):
     t43 = t42+1e-200
     t44 = root(t43)
     t45 = t25/t44
-    return (t45, 0.0, t30, t35, t41,)
+    t46 = points[0]*points[0]
+    t47 = points[1]*points[1]
+    t48 = t46+t47
+    t49 = points[2]*points[2]
+    t50 = t48+t49
+    t51 = points[3]*points[3]
+    t52 = points[4]*points[4]
+    t53 = t51+t52
+    t54 = points[5]*points[5]
+    t55 = t53+t54
+    t56 = t50+t55
+    t57 = points[6]*points[6]
+    t58 = points[7]*points[7]
+    t59 = t57+t58
+    t60 = points[8]*points[8]
+    t61 = t59+t60
+    t62 = t56+t61
+    t63 = points[9]*points[9]
+    t64 = points[10]*points[10]
+    t65 = t63+t64
+    t66 = points[11]*points[11]
+    t67 = t65+t66
+    t68 = t62+t67
+    t69 = points[6]-points[3]
+    t70 = t69*t69
+    t71 = points[4]-points[7]
+    t72 = t71*t71
+    t73 = t70+t72
+    t74 = points[8]-points[5]
+    t75 = t74*t74
+    t76 = t73+t75
+    t77 = points[9]-points[3]
+    t78 = t77*t77
+    t79 = points[4]-points[10]
+    t80 = t79*t79
+    t81 = t78+t80
+    t82 = points[5]-points[11]
+    t83 = t82*t82
+    t84 = t81+t83
+    t85 = points[9]-points[6]
+    t86 = t85*t85
+    t87 = points[7]-points[10]
+    t88 = t87*t87
+    t89 = t86+t88
+    t90 = points[8]-points[11]
+    t91 = t90*t90
+    t92 = t89+t91
+    return (t45, 0.0, 1.0, t68, t30, t35, t76, t41, t84, t92,)
 
 
 def degeneracy_gradient(points):

@@ -164,7 +164,7 @@ def degeneracy(team: Team, c: Vector, s: Vector) -> list[Scalar]:
 
 
 def guard(team: Team, c: Vector, s: Vector) -> list[Scalar]:
-    """Degeneracy, cosine to the reference direction, squared distances from the first point."""
+    """What is looked at before the rest is trusted, see primitives.guard."""
     return primitives.guard(team.kind, team.points(c, s))
 
 

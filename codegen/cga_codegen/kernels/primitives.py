@@ -175,15 +175,26 @@ def degeneracy(kind: Kind, points: Vector) -> list[Scalar]:
 
 
 def guard(kind: Kind, points: Vector) -> list[Scalar]:
-    """What is looked at before the rest is trusted: `degeneracy`, the cosine between direction and reference direction (0 without one), and
-    the squared distances (m^2) of the other points from the first. Total."""
-    first, *others = split(points)
-    edges = [minus(other, first) for other in others]
-    height: Scalar = 0
+    """What is looked at before the rest is trusted. Total.
+
+    `degeneracy`; cosine and squared sine between direction and reference direction (without one 0 and 1); the sum of the squares of the
+    points (m^2); the squared distances of all pairs of points (m^2).
+    """
+    x = split(points)
+    reach: Scalar = 0
+    for point in x:
+        reach = reach + dot(point, point)
+    pairs = [minus(other, one) for k, other in enumerate(x) for one in x[:k]]
+    cosine: Scalar = 0
+    sine: Scalar = 1
     if kind.axis is not None:
+        edges = [minus(other, x[0]) for other in x[1:]]
         normal = edges[0] if kind.count == 2 else cross(edges[0], edges[1])
-        height = normal["e1 e2 e3".split().index(kind.axis)] / _root(dot(normal, normal) + NOTHING)
-    return [*degeneracy(kind, points), height, *(dot(edge, edge) for edge in edges)]
+        along = ("e1", "e2", "e3").index(kind.axis)
+        square = dot(normal, normal) + NOTHING
+        cosine = normal[along] / _root(square)
+        sine = sum((y * y for k, y in enumerate(normal) if k != along), 0) / square
+    return [*degeneracy(kind, points), cosine, sine, reach, *(dot(pair, pair) for pair in pairs)]
 
 
 def degeneracy_gradient(kind: Kind, points: Vector) -> list[Scalar]:

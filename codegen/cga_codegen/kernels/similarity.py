@@ -10,8 +10,8 @@ Body Jacobians need no versor products. They are, with om = n x dn + 2 n ((n x a
 
 The horizontal one leaves out the turn about n, which moves nothing, and all rows outside the controllable blades. Here its rows come from
 the points at once, in the primitive's frame: the twist that moves the primitive as its points move across it (see `_horizontal`); that
-takes a quarter of the operations of dn, dc and d log r. The rotor is R = h a with h = (a + n)/|a + n|: near the antipode it loses
-eps/delta where (1 + n a) normalised (paper A, eq. 26) loses eps/delta^2.
+takes a quarter of the operations of dn, dc and d log r. The rotor is R = h a with h = (a + n)/|a + n|, in a form that
+loses nothing near the antipode, where (1 + n a) normalised (paper A, eq. 26) loses eps/delta^2 at the angle delta from it.
 """
 
 from __future__ import annotations
@@ -28,12 +28,13 @@ from cga_codegen.kernels.vectors import Axes, Scalar, Vector, cross, dot, plus, 
 
 @dataclass(frozen=True)
 class Standing:
-    """A primitive's frame, its rotor (1 e12 e13 e23), the columns of its rotation, and where the arc of its chart begins."""
+    """A primitive's frame, its rotor (1 e12 e13 e23), the columns of its rotation, where the arc of its chart begins (a), and |a + n|^2."""
 
     frame: Frame
     rotor: list[Scalar]
     axes: Axes
     pole: list[Scalar]
+    square: Scalar
 
     @property
     def size(self) -> Scalar:
@@ -55,18 +56,22 @@ def stand(kind: Kind, points: Vector, chart: Vector) -> Standing:
     """Frame and rotor in the chart +1 or -1."""
     at = frame(kind, split(points))
     if kind.axis is None or at.direction is None:
-        return Standing(at, [1, 0, 0, 0], [[1, 0, 0], [0, 1, 0], [0, 0, 1]], [0, 0, 0])
+        return Standing(at, [1, 0, 0, 0], [[1, 0, 0], [0, 1, 0], [0, 0, 1]], [0, 0, 0], 2)
     sense = chart[0]
     pole = [sense if name == kind.axis else 0 for name in ("e1", "e2", "e3")]
-    middle = plus(pole, at.direction)
-    length = casadi.sqrt(dot(middle, middle))
-    h = [x / length for x in middle]
+    # a + n = u + (1 + a.n) a with u square to a; 1 + a.n = ((1 + a.n)^2 + u^2)/2 loses nothing near the pole, |a + n|^2 = 2 (1 + a.n)
+    along = ("e1", "e2", "e3").index(kind.axis)
+    rise = 1 + sense * at.direction[along]
+    across = [0 if k == along else x for k, x in enumerate(at.direction)]
+    rise = 0.5 * (rise * rise + dot(across, across))
+    length = casadi.sqrt(2 * rise)
+    h = [(sense * rise if k == along else x) / length for k, x in enumerate(at.direction)]
     # h times the pole, in components 1 e12 e13 e23
     arc = times(sense, [h[1], h[0], 0, -h[2]] if kind.axis == "e2" else [h[2], 0, h[0], h[1]])
     turned = [arc[3], arc[2], -arc[1], -arc[0]]  # arc times -e23, the half turn about e1
     first, second = 0.5 * (1 + sense), 0.5 * (1 - sense)
     rotor = plus(times(first, arc), times(second, turned))
-    return Standing(at, rotor, _axes(rotor), pole)
+    return Standing(at, rotor, _axes(rotor), pole, 2 * rise)
 
 
 def _packed(rotor: Vector, t: Vector, size: Scalar) -> list[Scalar]:
@@ -168,8 +173,7 @@ def _spun(kind: Kind, at: Standing, rows: Rows) -> Rows:
     n = at.frame.direction
     if n is None:
         return rows
-    middle = plus(at.pole, n)
-    square = dot(middle, middle)
+    square = at.square
     pole, foot = ([dot(axis, v) for axis in at.axes] for v in (at.pole, at.frame.centre))
     # om.n = -2 om.a / |a + n|^2, where om is the turn across n
     first, second = ("e12", "e23") if kind.axis == "e2" else ("e13", "e23")
