@@ -71,6 +71,8 @@ from cga_runtime.solve.inverse_kinematics import Solutions as Solutions
 from cga_runtime.solve.inverse_kinematics import inverse_kinematics as inverse_kinematics
 from cga_runtime.solve.reaching import Solution as Solution
 from cga_runtime.solve.reaching import reach as reach
+from cga_runtime.solve.resolved_rates import resolved_rates as resolved_rates
+from cga_runtime.solve.resolved_rates import twist_towards as twist_towards
 from cga_runtime.spaces.cooperative import Cooperative as Cooperative
 from cga_runtime.spaces.dual_task import DualTaskSpace as DualTaskSpace
 from cga_runtime.spaces.hypersphere import Hypersphere as Hypersphere

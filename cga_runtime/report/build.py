@@ -15,7 +15,7 @@ from cga_runtime import __version__
 from cga_runtime.cache import write_atomic
 from cga_runtime.errors import FolderError
 from cga_runtime.loading import load_robot
-from cga_runtime.report import constraint, kernels, limb, mobility, nearest, reaching, schemes, strict_json
+from cga_runtime.report import constraint, cooperative, kernels, limb, mobility, nearest, reaching, schemes, strict_json
 from cga_runtime.report.context import Context, Sizes
 
 SECTIONS: tuple[tuple[str, ModuleType, int], ...] = (
@@ -24,6 +24,7 @@ SECTIONS: tuple[tuple[str, ModuleType, int], ...] = (
     ("constraint", constraint, 1),
     ("schemes", schemes, 6),
     ("reaching", reaching, 40),
+    ("cooperative", cooperative, 3),
     ("nearest", nearest, 20),
     ("kernels", kernels, 6),
 )

@@ -16,6 +16,7 @@ from cga_runtime.analysis.singularities import limb_loci
 from cga_runtime.errors import CgaError
 from cga_runtime.report.arms import Arms, arms_at
 from cga_runtime.robot import Robot
+from cga_runtime.spaces.cooperative import Cooperative
 
 Array = NDArray[np.float64]
 
@@ -59,6 +60,16 @@ class Context:
     def loop(self) -> ClosedChain:
         """The two hands on one object. Raises ReportRobotError for robots of another kind."""
         return closed_chain(self.robot)
+
+    @cached_property
+    def pair(self) -> Cooperative:
+        """The point pair of the hands, from the right one to the left."""
+        return Cooperative([self.loop.right, self.loop.left], "point_pair")
+
+    @cached_property
+    def line(self) -> Cooperative:
+        """The line of the hands, from the right one to the left."""
+        return Cooperative([self.loop.right, self.loop.left], "line")
 
     @cached_property
     def limits(self) -> Array:

@@ -1,4 +1,4 @@
-"""One drawing of both arms, the object and its screws, shown twice: as a plotly 3-D figure, and as a still drawing (still.py)."""
+"""Drawings of both arms with what they hold or span, each shown twice: as a plotly 3-D figure, and as a still drawing (still.py)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cga_runtime.report.arms import Arms
+from cga_runtime.report.arms import Arm, Arms
 from cga_runtime.report.figures import Figure, figure, label
 
 Array = NDArray[np.float64]
@@ -20,7 +20,7 @@ AXIS, BEYOND, ARROW = 0.028, 0.08, 0.09
 
 @dataclass(frozen=True)
 class Line:
-    """A line or polyline (k, 3) of one kind: torso, link, axis, object, force, rotation, translation. tag: label at its last point."""
+    """A line or polyline (k, 3) of one kind, a key of STYLE. tag: label at its last point."""
 
     kind: str
     points: Array
@@ -31,7 +31,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Mark:
-    """A point of one kind: U, S, hand. tag: its label."""
+    """A point of one kind: U, S, hand, centre. side: right, left, or another colour of the style sheet. tag: its label."""
 
     kind: str
     point: Array
@@ -50,11 +50,8 @@ class Drawing:
 
 def draw(arms: Arms, pose: dict[str, Any], joint_names: Sequence[str]) -> Drawing:
     """The drawing of a pose; `pose` is an entry ("generic" or "parallel") of the section "mobility"."""
-    made = Drawing()
     right, left = arms.right, arms.left
-    neck = 0.5 * (right.u + left.u)
-    made.lines.append(Line("torso", np.stack([np.zeros(3), neck]), "torso: from the root frame to the shoulder line"))
-    made.lines.append(Line("torso", np.stack([right.u, left.u]), "shoulder line: both ShoulderPitch axes"))
+    made = Drawing(torso(arms))
     made.lines.append(Line("object", np.stack([right.hand, left.hand]), "grasped object"))
     centre = 0.5 * (right.hand + left.hand)
     for twist in pose["twists"]:
@@ -67,7 +64,7 @@ def draw(arms: Arms, pose: dict[str, Any], joint_names: Sequence[str]) -> Drawin
             made.lines.append(Line("rotation", ends, f"the object may turn about the {twist['name']}", tag="R"))
     names = iter(joint_names)
     for side, arm, number in (("right", right, 1), ("left", left, 2)):
-        made.lines.append(Line("link", np.stack([arm.u, arm.elbow, arm.s, arm.wrist, arm.hand]), f"{side} arm", side))
+        made.lines.append(limb(arm, side))
         for w, anchor in zip(arm.axes, arm.anchors, strict=True):
             made.lines.append(Line("axis", anchor + np.outer([-AXIS, AXIS], w), f"axis of {next(names)}", side))
         along = (arm.s - arm.u) / np.linalg.norm(arm.s - arm.u)
@@ -80,6 +77,20 @@ def draw(arms: Arms, pose: dict[str, Any], joint_names: Sequence[str]) -> Drawin
     return made
 
 
+def torso(arms: Arms) -> list[Line]:
+    """What does not move."""
+    right, left = arms.right.u, arms.left.u
+    return [
+        Line("torso", np.stack([np.zeros(3), 0.5 * (right + left)]), "torso: from the root frame to the shoulder line"),
+        Line("torso", np.stack([right, left]), "shoulder line: both ShoulderPitch axes"),
+    ]
+
+
+def limb(arm: Arm, side: str, kind: str = "link", words: str = "arm") -> Line:
+    """An arm from shoulder to hand."""
+    return Line(kind, np.stack([arm.u, arm.elbow, arm.s, arm.wrist, arm.hand]), f"{side} {words}", side)
+
+
 # ---- the plotly figure
 
 STYLE: dict[str, tuple[str, int, str]] = {
@@ -90,9 +101,14 @@ STYLE: dict[str, tuple[str, int, str]] = {
     "force": ("var(--force)", 5, "solid"),
     "rotation": ("var(--good)", 4, "longdash"),
     "translation": ("var(--good)", 6, "solid"),
+    "ghost": ("", 4, "solid"),
+    "extent": ("var(--force)", 2, "dot"),
+    "span": ("var(--force)", 6, "solid"),
 }
 """Kind -> colour ("" is that of the side), width, dash."""
-SYMBOL = {"U": "circle", "S": "diamond", "hand": "square"}
+FAINT = 0.55
+"""Opacity of a ghost."""
+SYMBOL = {"U": "circle", "S": "diamond", "hand": "square", "centre": "circle-open"}
 
 
 def three_d(made: Drawing) -> Figure:
@@ -111,6 +127,7 @@ def three_d(made: Drawing) -> Figure:
                 "text": [""] * (len(x) - 1) + [f" {line.tag}"],
                 "textfont": {"color": colour or f"var(--{line.side})", "size": 14},
                 "line": {"color": colour or f"var(--{line.side})", "width": width, "dash": dash},
+                "opacity": FAINT if line.kind == "ghost" else 1.0,
                 "hovertext": label(line.name),
                 "hoverinfo": "text",
             }

@@ -14,6 +14,7 @@ def ledger(data: dict[str, Any]) -> dict[str, list[str]]:
     proved = sum(row["certified"] and row["class"] != "never" for row in table)
     never = [row for row in table if row["class"] == "never"]
     structural = sum(row["certified"] for row in never)
+    hands = data["cooperative"]
     actuation = data["nearest"]["actuation"]["within_limits"]
     exact = [
         f"{proved} of {data['schemes']['admissible']} admissible schemes: six independent passive screws at a pose with rational"
@@ -23,6 +24,7 @@ def ledger(data: dict[str, Any]) -> dict[str, list[str]]:
         "q2*: a closed form of two constants of the arm. The factorisation of the limb Jacobian is an identity; the deviation given"
         " above is the rounding of checking it.",
         "Counts of schemes and orbits: they follow from the classes.",
+        "√det(J Jᵀ) = m m / (8 r⁶) for the point pair: an identity, because the arms share no joint; the deviation given is rounding.",
     ]
     sampled = [
         f"“Singular on every mirror pose”: exact rank deficiency at {POINTS} rational mirror-symmetric poses. That all of them should be"
@@ -34,6 +36,9 @@ def ledger(data: dict[str, Any]) -> dict[str, list[str]]:
         " actuation singularity inside the limits found one; a search that finds none proves nothing by itself.",
         "Reaching: a solver that starts elsewhere may fail or succeed where this one did not. A failure does not prove that a target is"
         " out of reach.",
+        f"Cooperative space: ranks, manipulability and motions of the hands at {hands['samples']} poses, uniform inside the limits; full"
+        " rank there proves nothing about the others. Inverse kinematics and the meeting of the hands: one solver, as under reaching.",
+        "Self-motions of the point pair and the line: numerical nullspaces at one pose, followed in steps and corrected.",
         "Times: one machine, one run.",
     ]
     if structural < len(never):

@@ -8,7 +8,11 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
+from cga_runtime.report import cooperative_drawing
 from cga_runtime.report.context import Context
+from cga_runtime.report.cooperative import BIVECTORS
+from cga_runtime.report.cooperative_motions import SELF_MOTIONS
+from cga_runtime.report.cooperative_ways import CHARTS
 from cga_runtime.report.drawing import draw, three_d
 from cga_runtime.report.figures import CLASS_STYLE, THEME, Figure
 from cga_runtime.report.kernels import BATCH
@@ -41,6 +45,8 @@ def render(context: Context, figures: Mapping[str, Figure]) -> str:
         made = draw(context.arms(pose["q"]), pose, context.loop.joint_names)
         drawings[key] = still(made, f"Both arms at the {key} pose with their constraint forces: {pose['motion']}")
         scenes[f"pose-{key}"] = three_d(made)
+    for key, (made, title) in cooperative_drawing.drawings(context).items():
+        drawings[key], scenes[f"pose-{key}"] = still(made, title), three_d(made)
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
@@ -59,6 +65,9 @@ def render(context: Context, figures: Mapping[str, Figure]) -> str:
         maps={part: sorted(name for name in figures if name.startswith(f"{part}-")) for part in ("limb", "constraint", "nearest")},
         classes=CLASS_STYLE,
         columns=COLUMNS,
+        bivectors=BIVECTORS,
+        self_motions=SELF_MOTIONS,
+        charts=CHARTS,
         ledger=ledger(context.data),
         titles={name: figure["layout"].get("title", {}).get("text", name) for name, figure in figures.items()},
         figures=for_script({**figures, **scenes}),
@@ -79,11 +88,11 @@ def degrees(value: float) -> str:
     return f"{57.29577951308232 * value:.2f}°"
 
 
-def power(value: float) -> Markup:
-    """A small number as a power of ten."""
+def power(value: float, digits: int = 1) -> Markup:
+    """A number as a power of ten, to so many digits."""
     if value == 0.0:
         return Markup("0")
-    mantissa, exponent = f"{value:.0e}".split("e")
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
     return Markup("{}·10<sup>{}</sup>").format(mantissa, str(int(exponent)).replace("-", "−"))
 
 

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from cga_runtime.coordinates import Array
 from cga_runtime.robot import Chain
 from cga_runtime.solve.gauss_newton import gauss_newton
-from cga_runtime.solve.levenberg_marquardt import Box, Evaluate, Rows, descend, search
+from cga_runtime.solve.ik_targets import Goal
+from cga_runtime.solve.levenberg_marquardt import Box, Rows, descend, search
+from cga_runtime.spaces.cooperative import Cooperative
 
 LANES = 128
 """Starts that run side by side where few targets are left: so many cost little more than one."""
@@ -23,7 +25,7 @@ DESCENT = 200
 class Starts:
     """Where a search may begin: how often, from what first, how long, and what counts as reached."""
 
-    arm: Chain
+    arm: Chain | Cooperative
     box: Box
     first: Array | None
     restarts: int
@@ -49,7 +51,7 @@ class Outcome:
     status: NDArray[np.str_]
 
 
-def levenberg_marquardt(evaluate: Evaluate, rows: Rows, starts: Starts) -> Outcome:
+def levenberg_marquardt(goal: Goal, rows: Rows, starts: Starts) -> Outcome:
     """Search from start after start; targets that no start reaches end at the bottom of the valley of the best one."""
     q, cost = np.empty((len(rows), starts.arm.n)), np.full(len(rows), np.inf)
     iterations, used = np.zeros(len(rows), dtype=np.intp), np.zeros(len(rows), dtype=np.intp)
@@ -58,7 +60,7 @@ def levenberg_marquardt(evaluate: Evaluate, rows: Rows, starts: Starts) -> Outco
         begin = starts.of(rows[left], begun)
         lanes = begin.shape[1]
         begin = begin.reshape(-1, starts.arm.n)
-        found = search(evaluate, np.repeat(rows[left], lanes), begin, starts.box, starts.tolerance, starts.iterations)
+        found = search(goal.evaluate, np.repeat(rows[left], lanes), begin, starts.box, starts.tolerance, starts.iterations)
         begun += lanes
         used[left] = begun
         iterations[left] += found.iterations.reshape(-1, lanes).sum(axis=1)
@@ -68,14 +70,14 @@ def levenberg_marquardt(evaluate: Evaluate, rows: Rows, starts: Starts) -> Outco
         left = left[cost[left] > starts.tolerance * starts.tolerance]
     status = np.full(len(rows), "iteration_limit")
     if len(left):
-        low, stationary = descend(evaluate, rows[left], q[left], starts.box, starts.tolerance, DESCENT)
+        low, stationary = descend(goal.error, rows[left], q[left], starts.box, starts.tolerance, DESCENT)
         q[left] = low.q
         iterations[left] += low.iterations
         status[left[stationary]] = "least_squares"
     return Outcome(q, iterations, used, status)
 
 
-def plain_gauss_newton(evaluate: Evaluate, rows: Rows, starts: Starts) -> Outcome:
+def plain_gauss_newton(goal: Goal, rows: Rows, starts: Starts) -> Outcome:
     """Gauss-Newton from one start each."""
-    found, stalled = gauss_newton(evaluate, rows, starts.of(rows, 0)[:, 0], starts.tolerance, starts.iterations)
+    found, stalled = gauss_newton(goal.evaluate, rows, starts.of(rows, 0)[:, 0], starts.tolerance, starts.iterations)
     return Outcome(found.q, found.iterations, np.ones(len(rows), dtype=np.intp), np.where(stalled, "stalled", "iteration_limit"))

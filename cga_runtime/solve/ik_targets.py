@@ -38,10 +38,15 @@ FARTHEST = 1e50
 
 @dataclass(frozen=True)
 class Goal:
-    """A batch of targets of one chain, with their weighted residuals."""
+    """A batch of targets with their weighted residuals.
+
+    error: what results are judged by; its smallest length is a least-squares solution. evaluate: what a search drives to zero, the error
+    itself or other equations of the same length.
+    """
 
     batch: tuple[int, ...]
     evaluate: Evaluate
+    error: Evaluate
 
 
 def goal(arm: Chain, target: IkTarget, weights: tuple[float, float], shortest: bool = True) -> Goal:
@@ -51,7 +56,7 @@ def goal(arm: Chain, target: IkTarget, weights: tuple[float, float], shortest: b
     the angle in [0, 2 pi] that the two motors' signs imply. Raises what Motor.from_pose raises, UnknownNameError for another type,
     DegenerateError for coordinates beyond 1e50 m, WrongSizeError for a primitive without weight.
     """
-    measure = _MEASURES.get(type(target))
+    measure = MEASURES.get(type(target))
     if measure is not None:
         if weights[0] == 0.0:
             raise WrongSizeError(f"weights: {weights} given, but lengths are all that a {type(target).__name__} measures")
@@ -62,14 +67,14 @@ def goal(arm: Chain, target: IkTarget, weights: tuple[float, float], shortest: b
         except ValueError:  # rows of different lengths
             array = np.empty(0, dtype=object)
         if array.dtype == object:
-            known = ("poses (..., 4, 4)", "Motor", *(kind.__name__ for kind in _MEASURES))
+            known = ("poses (..., 4, 4)", "Motor", *(kind.__name__ for kind in MEASURES))
             raise UnknownNameError("kind of target", type(target).__name__, known)
         target = Motor.from_pose(array)
     return _pose_goal(arm, target, weights, shortest)
 
 
 def _pose_goal(arm: Chain, target: Motor, weights: tuple[float, float], shortest: bool) -> Goal:
-    motors = _within_reason(target.coefficients)
+    motors = within_reason(target.coefficients)
     reverse = np.ascontiguousarray((motors.reshape(-1, 8) * REVERSE).T)
     scale = np.repeat(weights, 3)
 
@@ -81,7 +86,7 @@ def _pose_goal(arm: Chain, target: Motor, weights: tuple[float, float], shortest
         jacobian = rates @ twists.reshape(len(q), 2, 3, arm.n)
         return log * scale, jacobian.reshape(twists.shape)
 
-    return Goal(motors.shape[:-1], evaluate)
+    return Goal(motors.shape[:-1], evaluate, evaluate)
 
 
 def split_log(motor: tuple[Array, ...], shortest: bool) -> tuple[Array, Array]:
@@ -124,16 +129,16 @@ Measure = Callable[..., tuple[Array, Array]]
 def _primitive_goal(arm: Chain, target: Any, measure: Measure, weight: float) -> Goal:
     batch = target.points.shape[:-2] if isinstance(target, PointPair) else target.center.shape[:-1]
     columns = [getattr(target, field.name) for field in fields(target)]
-    flat = [_within_reason(column).reshape(-1, *column.shape[len(batch) :]) for column in columns]
+    flat = [within_reason(column).reshape(-1, *column.shape[len(batch) :]) for column in columns]
 
     def evaluate(rows: Rows, q: Array) -> tuple[Array, Array]:
         residual, gradient = measure(arm.point(q), *(column[rows] for column in flat))
         return weight * residual, (weight * gradient) @ arm.jacobian(q)[:, :3]
 
-    return Goal(batch, evaluate)
+    return Goal(batch, evaluate, evaluate)
 
 
-def _within_reason(numbers: Array) -> Array:
+def within_reason(numbers: Array) -> Array:
     """The numbers, whose squares and fourth powers must not overflow."""
     largest = np.abs(numbers).max(initial=0.0)
     if largest > FARTHEST:
@@ -178,7 +183,7 @@ def _away(step: Array) -> tuple[Array, Array]:
     return length, step / np.sqrt(length * length + SMALL)[:, None]
 
 
-_MEASURES: dict[type, Measure] = {
+MEASURES: dict[type, Measure] = {
     Point: _to_point,
     PointPair: _to_point_pair,
     Line: _to_line,

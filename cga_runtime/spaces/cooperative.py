@@ -30,9 +30,6 @@ from cga_runtime.spaces.primitive_kinds import PRIMITIVES, Primitive, Spanned
 from cga_runtime.spaces.similarity_twists import Parts, log_rate_of_body, log_rate_of_space, logarithm, relative, space_twist
 from cga_runtime.versors import Similarity
 
-POLE = -1.0 + 1e-15
-"""Cosine to the reference direction at which a chart that is asked for has no rotor."""
-
 
 class Cooperative:
     """The cooperative task space of as many chains as the primitive has points. q is (..., n): see `joint_names`.
@@ -138,7 +135,7 @@ class Cooperative:
     def chart(self, q: ArrayLike, previous: ArrayLike | None = None) -> Array:
         """The recommended chart at q, +1 or -1, (...): +1 where a.n >= -0.5, n the primitive's direction and a its reference; with
         `previous` that one, as long as n stays 26 degrees away from where it fails. See elements/charts.py."""
-        cosine, _ = look(self.about, self._source, self.joints.check(q))
+        cosine = look(self.about, self._source, self.joints.check(q)).cosine
         if previous is None:
             return np.where(cosine >= RECOMMENDED, 1.0, -1.0)
         before = read_chart(previous).astype(np.float64)
@@ -262,12 +259,12 @@ class Cooperative:
     def _charted(self, q: ArrayLike, chart: ArrayLike | None) -> tuple[Array, Array]:
         """q and the chart at q, with the same leading dimensions."""
         at = self.joints.check(q)
-        cosine, sine = look(self.about, self._source, at)
+        guard = look(self.about, self._source, at)
         if chart is None:
-            return at, np.where(cosine < SEAM, -1.0, 1.0)
+            return at, np.where(guard.cosine < SEAM, -1.0, 1.0)
         sense = read_chart(chart).astype(np.float64)
         batch = one_batch("q and chart", at.shape[:-1], sense.shape)
-        refuse_pole(self.about, cosine, sine, sense)
+        refuse_pole(self.about, guard, sense)
         return np.broadcast_to(at, (*batch, self.n)), np.broadcast_to(sense, batch)
 
     def _value(self, name: str, q: ArrayLike, chart: ArrayLike | None, v: ArrayLike | None = None) -> Array:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+from numpy.typing import NDArray
 
 from cga_runtime.coordinates import Array
 from cga_runtime.elements.charts import POLE
@@ -15,6 +18,27 @@ RELATIVE = 1e-12
 """Points closer than this fraction of their distance from the origin are one point (elements/through_points.py)."""
 FARTHEST = 1e25
 """Distance from the origin (m) up to which no kernel leaves the floats."""
+
+
+@dataclass(frozen=True)
+class Guard:
+    """What the kernel `guard` says of points: degeneracy; cosine and squared sine between direction and reference direction; sum of the
+    squares of the points; squared distances of all pairs (..., pairs)."""
+
+    measure: Array
+    cosine: Array
+    sine: Array
+    reach: Array
+    pairs: Array
+
+    @classmethod
+    def of(cls, values: Array) -> Guard:
+        """From the kernel's values."""
+        return cls(values[..., 0], values[..., 1], values[..., 2], values[..., 3], values[..., 4:])
+
+    def at_pole(self, chart: Array) -> NDArray[np.bool_]:
+        """Whether a chart has no rotor: the direction is opposite to where its arc begins, (...)."""
+        return np.asarray((chart * self.cosine < 0.0) & (self.sine <= POLE * POLE))
 
 
 def evaluate(about: Primitive, source: Source, name: str, at: Array, chart: Array | None = None, v: Array | None = None) -> Array:
@@ -30,24 +54,24 @@ def evaluate(about: Primitive, source: Source, name: str, at: Array, chart: Arra
     return value
 
 
-def look(about: Primitive, source: Source, at: Array) -> tuple[Array, Array]:
-    """Cosine and squared sine between direction and reference direction, each (...). Raises DegenerateError where `from_points` of the
-    element does: the kernel's measures tell which rows to look at closely, with a margin."""
-    guard = evaluate(about, source, "guard", at)
-    measure, cosine, sine, reach, pairs = guard[..., 0], guard[..., 1], guard[..., 2], guard[..., 3], guard[..., 4:]
-    least = 8.0 * np.maximum(COINCIDENT**2, RELATIVE**2 * reach)  # a radius is at least half the distance of two points
-    if (measure <= 2.0 * FLAT).any() or (pairs <= least[..., None]).any() or (reach > FARTHEST**2).any():
+def look(about: Primitive, source: Source, at: Array) -> Guard:
+    """What the guard says at q. Raises DegenerateError where `from_points` of the element does: the kernel's measures tell which rows to
+    look at closely, with a margin."""
+    guard = Guard.of(evaluate(about, source, "guard", at))
+    least = 8.0 * np.maximum(COINCIDENT**2, RELATIVE**2 * guard.reach)  # a radius is at least half the distance of two points
+    far = (guard.reach > FARTHEST**2).any()
+    if far or (guard.measure <= 2.0 * FLAT).any() or (guard.pairs <= least[..., None]).any():
         points = source.value("points", at)
         if degenerate(points, about.name).any():
             about.through(points)
-        if (reach > FARTHEST**2).any():
+        if far:
             raise DegenerateError(f"{about.name}: one of its points lies more than {FARTHEST:.0e} m from the origin")
-    return cosine, sine
+    return guard
 
 
-def refuse_pole(about: Primitive, cosine: Array, sine: Array, chart: Array) -> None:
-    """DegenerateError where a chart has no rotor: the direction is opposite to where its arc begins."""
-    if ((chart * cosine < 0.0) & (sine <= POLE * POLE)).any():
+def refuse_pole(about: Primitive, guard: Guard, chart: Array) -> None:
+    """DegenerateError where a chart has no rotor."""
+    if guard.at_pole(chart).any():
         raise DegenerateError(
             f"{about.name}: its direction is opposite to where the chart begins, it is at its pole; take the other chart there, or None"
         )

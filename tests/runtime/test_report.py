@@ -56,6 +56,8 @@ def test_the_promised_keys_are_there(made):
         "schemes": {"total", "orbits", "admissible", "admissible_orbits", "never", "never_orbits", "singular_on_mirror", "best_median"}
         | {"best_p05", "table"},
         "reaching": {"point", "line", "plane", "sphere", "point_pair", "both_on_line", "rigid_grasp"},
+        "cooperative": {"samples", "hands_distance", "hands_meet", "frame", "product_error", "stretched", "point_pair", "line"}
+        | {"nullspace", "interpolation", "inverse_kinematics"},
         "nearest": {"limb", "constraint", "actuation"},
         "kernels": {"RHand/motor", "RHand/pose", "RHand+LHand/closure_error"},
     }
@@ -65,6 +67,8 @@ def test_the_promised_keys_are_there(made):
     assert list(promised) == [name for name, _, _ in SECTIONS]
     for entry in data["reaching"].values():
         assert {"solved", "tried", "iterations_median", "iterations_max", "seconds_median"} <= set(entry) and entry["tried"] == 2
+    for name in ("point_pair", "line"):
+        assert data["cooperative"]["inverse_kinematics"][name]["tried"] == 2 and data["cooperative"][name]["full_rank"] == 60
     for entry in data["kernels"].values():
         assert entry["operations"] >= 0 and entry["nanoseconds"]["scalar"] > 0 and entry["nanoseconds"]["batch"] > 0 and entry["compiler"]
 
@@ -100,6 +104,15 @@ def test_atlas(made):
     counts = [schemes[key] for key in ("total", "orbits", "admissible", "admissible_orbits", "never", "never_orbits", "singular_on_mirror")]
     assert counts == [210, 110, 139, 71, 71, 39, 20]
     assert len(schemes["table"]) == 210 and schemes["samples"] == 60
+
+
+def test_hands_as_point_pair_and_line(made):
+    cooperative = made[1]["cooperative"]
+    numbers = {
+        name: [cooperative[name][key] for key in ("joints", "task_dimension", "nullspace_dimension")] for name in ("point_pair", "line")
+    }
+    assert numbers == {"point_pair": [10, 6, 4], "line": [10, 4, 6]} and cooperative["samples"] == 60
+    assert cooperative["nullspace"]["q"] == made[1]["mobility"]["generic"]["q"] and len(cooperative["nullspace"]["motions"]) == 6
 
 
 def test_nearest_finds_none_inside_the_limits_where_none_is(made):

@@ -13,6 +13,7 @@ from cga_codegen.robots.bundled import bundled_robots
 from cga_runtime.report.arms import line_through, meeting_point
 from cga_runtime.report.build import build_report
 from cga_runtime.report.context import Context, Sizes
+from cga_runtime.report.cooperative import BIVECTORS
 from cga_runtime.report.drawing import draw
 from cga_runtime.report.mobility import normals, object_twists
 from cga_runtime.report.still import still
@@ -98,7 +99,7 @@ def test_page_loads_nothing_from_elsewhere(page, made):
         assert attributes.get("href", "#").startswith("#") and attributes.get("xlink:href", "#").startswith("#")
         assert not any(key.startswith("on") for key in attributes)
     for style in page.styles:
-        assert "@import" not in style and set(re.findall(r"url\(([^)]*)\)", style)) <= {"#head"}
+        assert "@import" not in style and "url(" not in style
     policy = next(a["content"] for tag, a in page.elements if tag == "meta" and a.get("http-equiv") == "Content-Security-Policy")
     assert policy is not None and "default-src 'none'" in policy and "http" not in policy and "eval" not in policy
     assert sum(text.startswith("/**\n* plotly.js") for _, text in page.scripts) == 1
@@ -110,6 +111,7 @@ def test_every_chart_has_a_figure_and_a_label(page):
     assert {a["data-figure"] for a in charts} == set(figures) and len(charts) == len(figures)
     assert all(a.get("aria-label") for a in charts if "gl" not in (a["class"] or "").split())
     assert {"limb-0", "limb-1", "constraint-1", "pose-generic", "pose-parallel", "schemes-ranking", "nearest-unlimited"} <= set(figures)
+    assert {"pose-hands-pair", "pose-hands-line", "pose-hands-way", "cooperative-manipulability", "cooperative-weakest"} <= set(figures)
     assert page.json("figure-theme")["layout"]["font"]["color"] == "var(--ink)"
 
 
@@ -146,6 +148,30 @@ def test_headline_numbers_are_read_on_the_page(page):
     words = " ".join(" ".join(page.words).split())
     for number in ("1T3R → 2T2R", "−1.4289 rad", "210 / 110", "139 / 71", "71 / 39", "0.1024 rad (5.87°) outside"):
         assert number in words, number
+
+
+def test_the_hands_have_their_section_in_its_place(page, made):
+    sections = [a["id"] for tag, a in page.elements if tag == "section"]
+    links = [(a["href"] or "")[1:] for tag, a in page.elements if tag == "a" and (a.get("href") or "").startswith("#")]
+    assert sections == [link for link in links if link in sections] and sections.index("cooperative") == sections.index("reaching") + 1
+    cooperative = made[1]["cooperative"]
+    words = " ".join(" ".join(page.words).split())
+    for number in ("10, 6, 4", "10, 4, 6", "60 of 60", "2 / 2", f"{1e3 * cooperative['point_pair']['weakest']['median']:.1f}"):
+        assert number in words, number
+    rows = {row[0]: row[1:] for row in page.rows if row}
+    for motion, words_of in zip(cooperative["nullspace"]["motions"][:2], ("right arm: hand slides", "left arm: hand slides"), strict=True):
+        row = next(cells for name, cells in rows.items() if name.startswith(words_of))
+        assert row[:2] == [f"{1e3 * speed:.1f} mm/s".replace("-0.0", "0.0") for speed in motion["along"]]
+    assert [blade for blade in rows if blade in ("e12", "e13", "e23", "e0i", "e1i", "e2i", "e3i")] == list(BIVECTORS)
+    assert rows["e13"][1:] == ["–", "–", "–"] and rows["e2i"][3] == "–" and rows["e2i"][2].endswith(" %")
+
+
+def test_drawings_need_no_script_and_nothing_that_may_be_hidden(page):
+    stills = [a for tag, a in page.elements if tag == "svg"]
+    assert len(stills) == 5 and all("hidden" not in a and a["aria-label"] for a in stills)
+    assert all("hidden" in a for _, a in page.elements if "gl" in (a.get("class") or "").split())
+    assert not any(tag in ("use", "marker", "defs") for tag, _ in page.elements)  # what is referred to vanishes with the drawing it is in
+    assert sum(a.get("class") == "head" for tag, a in page.elements if tag == "path") == 4 + 1 + 2  # slides; translations of both poses
 
 
 def test_names_from_the_robots_file_are_escaped(tmp_path):

@@ -28,6 +28,14 @@ def free_points():
     return [robot.chain(name) for name in "abcd"]
 
 
+def plane_of_slides():
+    """A chain of two sliding joints, along x and y."""
+    axes = np.eye(3).tolist()
+    joints = [Joint(f"slide_{k}", "prismatic", k - 1, Placement(), tuple(axes[k]), -2.0, 2.0, np.inf, np.inf) for k in range(2)]
+    model = RobotModel("slides", tuple(joints), (Frame("end", 1, Placement()),))
+    return cga.Robot(json.dumps(model.to_json(), sort_keys=True)).chain("end")
+
+
 class Flanges:
     """Pinocchio's Pandas at placements."""
 
