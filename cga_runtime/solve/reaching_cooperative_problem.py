@@ -103,9 +103,7 @@ def from_start(system: Cooperative, start: Array) -> Array:
 def parameters(wish: Wish, reference: Array, margin: float, weight: float) -> Array:
     """The numbers of one problem in the program's order, but for those that each start fixes."""
     direction = np.zeros(3) if wish.direction is None else wish.direction
-    return np.concatenate(
-        [reference, *(s.ravel() for s in wish.ends), wish.through.ravel(), direction, [margin, APART if margin else 0.0, weight]]
-    )
+    return np.concatenate([reference, *(s.ravel() for s in wish.ends), wish.through.ravel(), direction, [margin, weight]])
 
 
 @lru_cache(maxsize=64)
