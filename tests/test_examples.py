@@ -19,6 +19,11 @@ def test_the_readme_example_runs():
     assert run("-c", example) == "True (1000, 8)\n"
 
 
+def test_the_example_of_cooperative_arms_runs():
+    (example,) = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "cooperative.md").read_text(encoding="utf-8"), re.DOTALL)
+    assert run("-c", example + "print(found.success, v.shape)") == "True (21,)\n"
+
+
 def test_the_tour_of_two_arms():
     text = run(str(ROOT / "scripts" / "two_arms.py"))
     assert "joint mobility 4; the object has 4 degrees of freedom: 1T3R\n" in text
