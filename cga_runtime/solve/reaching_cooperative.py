@@ -59,7 +59,7 @@ def cooperative_search(
         measure = degeneracy(points)
         missed = f"degeneracy margin not kept: {measure:.4g}, at least {margin:g} wanted"
         found = [Check((margin - measure) / MARGIN_TOLERANCE, missed)]
-        if margin and count > 2:
+        if form.spread:
             apart = float(norm(points[1] - points[0]))
             found.append(Check((APART - apart) / MARGIN_TOLERANCE, f"its first two end points are {apart:.2g} m apart, {APART:g} wanted"))
         return found

@@ -63,8 +63,8 @@ class CooperativeForm:
         tight = [int(free[list(place)].sum()) <= k for k, place in zip(ends, places, strict=True) if k]
         directed = wish.direction is not None
         guarded = (directed or margin > 0.0) and not wish.places_ends
-        spread = margin > 0.0 and not (wish.same and system.about.round)
         units = tuple(chain.unit for chain in system.chains)
+        spread = margin > 0.0 and len(units) > 2 and not (system.about.round and (wish.same or through > 1))
         form = cls(system.kind, system.fused, units, places, ends, through, directed, guarded, spread, weight != 0.0, False, system)
         return replace(form, elastic=any(tight) or int(free.sum()) <= form.equations)
 

@@ -12,7 +12,7 @@ their plane on which a start lies. Both change their sign without a kink where a
     4 points    side det[a, b, d] / (|a||b||d|) >= m, each corner
 
 Sines and determinants do not notice when all points come together. Hence with a margin the first two of three or four also stay 1 mm
-apart; of a circle or sphere whose radius is given they cannot but do so.
+apart, but for circles and spheres that their target keeps from shrinking.
 """
 
 from __future__ import annotations

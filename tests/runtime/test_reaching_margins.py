@@ -73,6 +73,16 @@ def test_end_points_do_not_all_come_together(kind, target, sliding):
         assert found.success and corners(x) >= (margin or 0.01) - 1e-7 and np.linalg.norm(x[1] - x[0]) >= 1e-3 - 1e-7
 
 
+@pytest.mark.parametrize("kind", ["circle", "sphere"])
+def test_small_targets_may_have_end_points_close_together(kind, sliding, rng):
+    """Nearer than what keeps primitives of free size from shrinking."""
+    system = sliding[kind]
+    q0 = next(q for q in system.random(rng, 100) if corners(system.points(q)) > 0.3)
+    target = Circle((0.1, 0, 0), (0, 0, 1), 4e-4) if kind == "circle" else Sphere((0.1, 0, 0), 4e-4)
+    for margin in (None, 0.1):
+        assert reach(system, target, q0, degeneracy_margin=margin).success
+
+
 def test_a_margin_that_cannot_be_kept_is_named(sliding):
     pair = PointPair.from_points((0, 0, 0), (0.1, 0, 0))
     found = reach(sliding["point_pair"], pair, degeneracy_margin=0.2, starts=2)
