@@ -1,4 +1,4 @@
-"""Benchmarks (pytest-benchmark) of cooperative similarities: kernels fused for one system beside the same put together; run by `./run bench`.
+"""Benchmarks (pytest-benchmark) of cooperative similarities: kernels fused for a system beside the same put together; see `./run bench`.
 
 As plain tests they check the values of what is timed; speed itself is never asserted here.
 """
