@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from cga_runtime.coordinates import Array, count, read
 from cga_runtime.elements import Line, Motor, Point, PointPair
+from cga_runtime.elements.distances import distance
 from cga_runtime.errors import ChainError, GraspError, UnknownNameError, WrongSizeError
 from cga_runtime.robot import Chain, shared_joints
 from cga_runtime.solve.reaching_cooperative import cooperative_search
@@ -22,7 +23,7 @@ from cga_runtime.solve.reaching_problem import Form, bounds, parameters, program
 from cga_runtime.solve.reaching_search import STARTS as STARTS
 from cga_runtime.solve.reaching_search import TOLERANCE, Search
 from cga_runtime.solve.reaching_search import Solution as Solution
-from cga_runtime.solve.reaching_targets import KINDS, Target, distance, duals
+from cga_runtime.solve.reaching_targets import KINDS, Target, duals
 from cga_runtime.spaces.closed_chain import ClosedLoop
 from cga_runtime.spaces.cooperative import Cooperative
 from cga_runtime.versors import Similarity
@@ -114,7 +115,7 @@ def _search(what: Any, target: Any, q0: ArrayLike | None, options: dict[str, Any
 
     def residual(q: Array) -> float:
         points = _end_points(chains, q) if held is None else held.points(q)
-        return max(float(distance(goal, point)) for goal, point in zip(targets, points, strict=True))
+        return max(float(distance(point, goal)) for goal, point in zip(targets, points, strict=True))
 
     planes = [duals(goal) for goal in targets]
     form = Form.of(chains, tuple(len(s) for s in planes), held)

@@ -1,4 +1,4 @@
-"""What a point must satisfy to lie on a primitive, as inner products in CGA, and how far from it a point is, in metres.
+"""What a point must satisfy to lie on a primitive, as inner products in CGA.
 
 Every primitive is an intersection of planes and spheres s, and P lies on s exactly where P.s = 0 (paper A, section 2). A plane is the dual
 vector s = n + offset ei, a sphere s = (e0 + c + (c^2 - r^2)/2 ei) / r, scaled so that P.s is a length near the primitive. A line is two
@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from cga_runtime.coordinates import Array, norm
+from cga_runtime.coordinates import Array
 from cga_runtime.elements import Circle, Line, Plane, Point, Sphere
 
 Target = Point | Line | Circle | Plane | Sphere
@@ -53,34 +53,12 @@ def _sphere_duals(target: Sphere) -> list[Array]:
     return [_sphere(target.center, target.radius)]
 
 
-def _to_point(target: Point, x: Array) -> Array:
-    return norm(x - target.center)
-
-
-def _to_line(target: Line, x: Array) -> Array:
-    return norm(np.cross(x - target.center, target.direction))
-
-
-def _to_circle(target: Circle, x: Array) -> Array:
-    d = x - target.center
-    height = d @ target.normal
-    return np.asarray(np.hypot(height, norm(d - height[..., None] * target.normal) - target.radius))
-
-
-def _to_plane(target: Plane, x: Array) -> Array:
-    return np.asarray(np.abs(x @ target.normal - target.offset))
-
-
-def _to_sphere(target: Sphere, x: Array) -> Array:
-    return np.asarray(np.abs(norm(x - target.center) - target.radius))
-
-
-_TABLE: dict[type, tuple[Callable[..., list[Array]], Callable[..., Array]]] = {
-    Point: (_point_duals, _to_point),
-    Line: (_line_duals, _to_line),
-    Circle: (_circle_duals, _to_circle),
-    Plane: (_plane_duals, _to_plane),
-    Sphere: (_sphere_duals, _to_sphere),
+_TABLE: dict[type, Callable[..., list[Array]]] = {
+    Point: _point_duals,
+    Line: _line_duals,
+    Circle: _circle_duals,
+    Plane: _plane_duals,
+    Sphere: _sphere_duals,
 }
 
 KINDS: tuple[type, ...] = tuple(_TABLE)
@@ -90,9 +68,4 @@ KINDS: tuple[type, ...] = tuple(_TABLE)
 def duals(target: Target) -> Array:
     """Dual vectors (e0, e1, e2, e3, ei) of the planes and spheres that make up a primitive, (k, 5): k = 3 for a point, 2 for a line or
     circle, 1 for a plane or sphere."""
-    return np.array(_TABLE[type(target)][0](target))
-
-
-def distance(target: Target, x: Array) -> Array:
-    """Euclidean distance (m) of points x (..., 3) from a primitive, by elementary geometry, (...)."""
-    return _TABLE[type(target)][1](target, x)
+    return np.array(_TABLE[type(target)](target))

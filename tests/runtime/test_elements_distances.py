@@ -13,7 +13,6 @@ from cga_codegen.algebra import blade_types
 from cga_codegen.algebra.multivector import Multivector as Exact
 from cga_runtime.elements import Circle, Line, Plane, Point, PointPair, Sphere
 from cga_runtime.elements.distances import contains, distance, incidence, project
-from cga_runtime.solve import reaching_targets
 
 
 def spread(x, rng, count):
@@ -49,15 +48,6 @@ def test_the_projection_lies_on_the_element_and_no_other_point_is_nearer(kind, r
         np.testing.assert_allclose(project(feet, x), feet, rtol=0, atol=2e-14 * size)
         others = np.linalg.norm(points[:, None] - spread(x, rng, 3000), axis=-1).min(axis=1)
         assert (others >= lengths - 1e-14 * size).all()
-
-
-TARGETS = (Point, Line, Circle, Plane, Sphere)
-
-
-@pytest.mark.parametrize("kind", TARGETS)
-def test_distances_are_those_of_reaching(kind, rng):
-    x, points = draws.random(kind, rng), rng.normal(size=(50, 3))
-    np.testing.assert_allclose(distance(points, x), reaching_targets.distance(x, points), rtol=1e-13, atol=1e-15)
 
 
 def test_known_distances():

@@ -10,7 +10,6 @@ from cga_runtime.solve import inverse_kinematics as module
 from cga_runtime.solve.ik_targets import goal
 from cga_runtime.solve.inverse_kinematics import inverse_kinematics
 from cga_runtime.solve.levenberg_marquardt import Box, descend
-from cga_runtime.solve.reaching_targets import distance
 
 # ---- solutions
 
@@ -31,7 +30,7 @@ def test_primitives_that_can_be_reached(arm, rng, kind) -> None:
     target = primitives(arm.point(arm.random(rng, 60)), rng)[kind]
     found = inverse_kinematics(arm, target)
     assert found.success.all() and inside(arm, found.q)
-    assert max(distance(single(target, k), arm.point(found.q[k])) for k in range(60)) <= 1e-6
+    assert max(cga.distance(arm.point(found.q[k]), single(target, k)) for k in range(60)) <= 1e-6
 
 
 def test_either_point_of_a_pair(arm, rng) -> None:

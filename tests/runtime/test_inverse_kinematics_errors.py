@@ -8,7 +8,6 @@ from inverse_kinematics_oracle import EQUAL, KINDS, ONE, Peer, primitives, singl
 import cga_runtime as cga
 from cga_runtime.solve.ik_targets import goal
 from cga_runtime.solve.inverse_kinematics import inverse_kinematics
-from cga_runtime.solve.reaching_targets import distance
 
 
 def test_the_error_of_a_pose_and_its_jacobian(arm, rng) -> None:
@@ -65,9 +64,11 @@ def test_the_error_of_a_primitive_is_the_distance(arm, rng, kind) -> None:
     e, jacobian = goal(arm, target, (3.0, 1.0)).evaluate(rows, q)
     for k in range(12):
         alone = single(target, k)
-        assert np.linalg.norm(e[k]) == pytest.approx(3.0 * distance(alone, arm.point(q[k])), rel=1e-12)
+        assert np.linalg.norm(e[k]) == pytest.approx(3.0 * cga.distance(arm.point(q[k]), alone), rel=1e-12)
         steps = q[k] + h * np.eye(5), q[k] - h * np.eye(5)
-        slope = [(distance(alone, arm.point(a)) ** 2 - distance(alone, arm.point(b)) ** 2) / (4 * h) for a, b in zip(*steps, strict=True)]
+        slope = [
+            (cga.distance(arm.point(a), alone) ** 2 - cga.distance(arm.point(b), alone) ** 2) / (4 * h) for a, b in zip(*steps, strict=True)
+        ]
         np.testing.assert_allclose(e[k] @ jacobian[k], 9.0 * np.array(slope), rtol=0, atol=1e-8)
 
 
