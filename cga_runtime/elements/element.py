@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
@@ -20,7 +21,7 @@ SCALARS = ("radius", "offset")
 """Fields that are numbers (...); the others are vectors (..., 3)."""
 
 
-class Element:
+class Element(ABC):
     """A geometric primitive as a unit blade X: `coefficients` (..., k) in the order of `blades`.
 
     `kind` is its name, one of point, point_pair, line, circle, plane, sphere. Products take anything that has coefficients and blades.
@@ -41,14 +42,14 @@ class Element:
         def center(self) -> Array: ...  # a field or a property of every kind
 
     @property
+    @abstractmethod
     def coefficients(self) -> Array:
         """Coefficients of the unit primitive, (..., k)."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def batch(self) -> tuple[int, ...]:
         """Leading dimensions."""
-        raise NotImplementedError
 
     def __mul__(self, other: Any) -> Multivector:
         """Geometric product."""
@@ -89,8 +90,9 @@ class Element:
         """The kind in plain words."""
         return self.kind.replace("_", " ")
 
+    @abstractmethod
     def _moved(self, d: Array, rotation: Array, t: Array) -> Self:
-        raise NotImplementedError
+        """The element after x -> d R x + t."""
 
     def _product(self, other: Any, rule: str) -> Multivector:
         with np.errstate(over="ignore", invalid="ignore"):  # the product is checked as a whole
